@@ -1,0 +1,77 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <map>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/terminal_progress.h"
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/version.h"
+
+namespace tenku {
+namespace {
+
+struct CommandEntry {
+  const char* name;
+  const char* description;
+  const char* example;
+  CommandBody (*make)(CLI::App&);
+};
+
+std::vector<CommandEntry> commands() {
+  return {
+#include "cli/commands.inc"
+  };
+}
+
+void add_common_options(CLI::App& app, CommonOptions& options) {
+  app.add_option("--threads", options.threads, "threads to use (default: all)");
+  app.add_option("--seed", options.seed, "seed of the random numbers (default 1)");
+  app.add_flag("--quiet", options.quiet, "print nothing but errors");
+  app.add_flag("--verbose", options.verbose, "print more");
+  app.add_flag("--json", options.json, "print a machine-readable summary on standard output");
+}
+
+int run_command(const CommandBody& body, const CommonOptions& options) {
+  TerminalProgress progress(options.quiet);
+  const ThreadLimit limit(options.threads);
+  try {
+    return body({options, progress});
+  } catch (const InputError& error) {
+    std::fprintf(stderr, "tenku: %s\n", error.what());
+    return kInputWrong;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "tenku: out of memory\n");
+    return kOtherFailure;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "tenku: %s\n", error.what());
+    return kOtherFailure;
+  }
+}
+
+int main_with(int argc, char** argv) {
+  CLI::App app{"Daylight and townscape analysis: sun, sky, illuminance, views."};
+  app.name("tenku");
+  app.set_version_flag("--version", std::string(software_name()));
+  app.require_subcommand(1);
+  CommonOptions options;
+  std::map<const CLI::App*, CommandBody> bodies;
+  for (const CommandEntry& entry : commands()) {
+    CLI::App* command = app.add_subcommand(entry.name, entry.description);
+    command->footer(std::string("Example:\n  ") + entry.example);
+    add_common_options(*command, options);
+    bodies[command] = entry.make(*command);
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kDone : kInputWrong;
+  }
+  return run_command(bodies.at(app.get_subcommands().front()), options);
+}
+
+}  // namespace
+}  // namespace tenku
+
+int main(int argc, char** argv) { return tenku::main_with(argc, argv); }

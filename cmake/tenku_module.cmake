@@ -1,0 +1,54 @@
+# Flags and helpers that every module shares.
+#
+# tenku_module(name HEADERS ... SOURCES ... PUBLIC ... PRIVATE ...) makes the static library
+# tenku_<name>. PUBLIC and PRIVATE name other modules (without the prefix) or imported targets.
+# Each header is also compiled alone, so that it includes what it needs (target header_checks).
+
+find_program(TENKU_CCACHE ccache)
+if(TENKU_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${TENKU_CCACHE})
+endif()
+
+add_library(tenku_options INTERFACE)
+target_compile_options(tenku_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -ffp-contract=off)
+target_include_directories(tenku_options INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
+if(TENKU_SANITIZE)
+  target_compile_options(tenku_options INTERFACE -fsanitize=address,undefined
+                         -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  target_link_options(tenku_options INTERFACE -fsanitize=address,undefined)
+endif()
+
+add_custom_target(header_checks)
+
+function(tenku_link target scope)
+  foreach(library IN LISTS ARGN)
+    if(TARGET tenku_${library} AND NOT library STREQUAL "tenku")
+      target_link_libraries(${target} ${scope} tenku_${library})
+    else()
+      target_link_libraries(${target} ${scope} ${library})
+    endif()
+  endforeach()
+endfunction()
+
+function(tenku_module name)
+  cmake_parse_arguments(M "" "" "HEADERS;SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(tenku_${name} STATIC ${M_SOURCES} ${M_HEADERS})
+  target_link_libraries(tenku_${name} PUBLIC tenku_options)
+  tenku_link(tenku_${name} PUBLIC ${M_PUBLIC})
+  tenku_link(tenku_${name} PRIVATE ${M_PRIVATE})
+
+  set(units)
+  foreach(header IN LISTS M_HEADERS)
+    file(RELATIVE_PATH relative ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/${header})
+    string(REGEX REPLACE "^src/" "" include ${relative})
+    string(MAKE_C_IDENTIFIER ${include} id)
+    set(unit ${CMAKE_BINARY_DIR}/header_checks/${id}.cpp)
+    file(CONFIGURE OUTPUT ${unit} CONTENT "#include \"${include}\"\n")
+    list(APPEND units ${unit})
+  endforeach()
+  if(units)
+    add_library(header_checks_${name} OBJECT EXCLUDE_FROM_ALL ${units})
+    target_link_libraries(header_checks_${name} PRIVATE tenku_options)
+    add_dependencies(header_checks header_checks_${name})
+  endif()
+endfunction()

@@ -1,0 +1,1 @@
+#include "sky_models/sky_model.h"

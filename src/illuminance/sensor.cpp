@@ -1,0 +1,1 @@
+#include "illuminance/sensor.h"

@@ -1,0 +1,40 @@
+/// Points with a normal that receive light: pixels, grid points and vertices are all sensors.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/vec3.h"
+
+namespace tenku {
+
+/// Sensors, as a structure of arrays.
+///
+/// Frame    local east, north, up; normals are unit vectors.
+/// Shape    both arrays [sensor].
+struct Sensors {
+  std::vector<Vec3> position;
+  std::vector<Vec3> normal;
+
+  std::size_t size() const { return position.size(); }
+};
+
+/// What the sensors receive.
+///
+/// Units    lux; `sky_view` dimensionless.
+/// Shape    every array [sensor], in the order of the sensors.
+/// Error    `error_lux` is the half-width of a 95 % interval about the total.
+struct SensorIlluminance {
+  std::vector<double> sun_lux, sky_lux, reflected_lux, error_lux;
+  std::vector<double> sky_view;  ///< cosine-weighted visible fraction of the whole sky dome
+
+  explicit SensorIlluminance(std::size_t sensors = 0)
+      : sun_lux(sensors), sky_lux(sensors), reflected_lux(sensors), error_lux(sensors),
+        sky_view(sensors) {}
+
+  std::size_t size() const { return sun_lux.size(); }
+  double total_lux(std::size_t i) const { return sun_lux[i] + sky_lux[i] + reflected_lux[i]; }
+};
+
+}  // namespace tenku
