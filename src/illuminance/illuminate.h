@@ -1,0 +1,51 @@
+/// Sky, sun and visibility into lux, to the tolerance asked for.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/finding.h"
+#include "core/progress.h"
+#include "illuminance/error_budget.h"
+#include "illuminance/sensor.h"
+#include "illuminance/sky_table.h"
+#include "sky_models/sky_model.h"
+#include "visibility/ray_visibility.h"
+
+namespace tenku {
+
+/// What shines: the sky as a table (null: none) and the sun (zero illuminance: none).
+struct DaylightSource {
+  std::unique_ptr<SkyTable> sky;
+  SolarDisc sun;
+
+  /// Illuminance of the unobstructed horizontal plane from both.
+  double unobstructed_lux() const;
+};
+
+struct IlluminanceOptions {
+  double tolerance_pct = 2.0;
+  int bounces = 5;          ///< diffuse ones, of `reflected`; 0 for none
+  std::uint64_t seed = 1;
+  int most_slices = 4096;   ///< of the sky, a sensor
+  int most_paths = 16384;   ///< of reflected light, a sensor
+};
+
+/// What came out, and what it took.
+struct IlluminanceResult {
+  SensorIlluminance values;
+  std::uint64_t rays = 0;
+  std::size_t out_of_tolerance = 0;  ///< sensors that reached the limit of effort first
+  std::vector<Finding> findings;
+};
+
+/// Illuminance of every sensor. Rays are spent where the interval is still too wide.
+/// Same bits for any number of threads.
+/// @throws InputError  tolerance not in (0, 100], bounces not in 0..100
+/// @throws Cancelled   if the user asks to stop
+IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
+                             const DaylightSource& source, const IlluminanceOptions& options,
+                             Progress& progress);
+
+}  // namespace tenku

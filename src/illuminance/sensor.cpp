@@ -1,1 +1,0 @@
-#include "illuminance/sensor.h"

@@ -1,0 +1,122 @@
+#include "illuminance/sky_table.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/parallel.h"
+
+namespace tenku {
+namespace {
+
+constexpr double kHalfPi = kPi / 2.0;
+
+// Nodes and weights of the four-point Gauss-Legendre rule on [-1, 1].
+constexpr std::array<double, 4> kNode{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
+                                      0.8611363115940526};
+constexpr std::array<double, 4> kWeight{0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
+                                        0.3478548451374538};
+
+/// Cubic through (0, p0) and (1, p1) with slopes m0, m1 per unit.
+double hermite(double t, double p0, double m0, double p1, double m1) {
+  const double t2 = t * t, t3 = t2 * t;
+  return (2 * t3 - 3 * t2 + 1) * p0 + (t3 - 2 * t2 + t) * m0 + (3 * t2 - 2 * t3) * p1 +
+         (t3 - t2) * m1;
+}
+
+int count_for(double whole_deg, double step_deg, int least, int most) {
+  return std::clamp(static_cast<int>(std::ceil(whole_deg / step_deg)), least, most);
+}
+
+}  // namespace
+
+SkyTable::SkyTable(const SkyModel& sky)
+    : columns_(count_for(360.0, sky.detail().in_degrees(), 360, 8192)),
+      rows_(count_for(90.0, sky.detail().in_degrees(), 90, 2048)), row_rad_(kHalfPi / rows_),
+      node_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_ + 1) *
+            kNodeFloats) {
+  parallel_for(static_cast<std::size_t>(columns_), 8, [&](IndexRange range) {
+    for (std::size_t c = range.begin; c < range.end; ++c) fill_column(sky, static_cast<int>(c));
+  });
+  horizontal_lux_ = unobstructed_lux(kZenith);
+}
+
+void SkyTable::fill_column(const SkyModel& sky, int column) {
+  const double azimuth = 2.0 * kPi * column / columns_;
+  const auto luminance = [&](double altitude) {
+    return sky.luminance(direction_from(Angle::radians(azimuth), Angle::radians(altitude))).value();
+  };
+  double along = 0.0, up = 0.0;
+  for (int row = 0; row <= rows_; ++row) {
+    const double altitude = std::min(row * row_rad_, kHalfPi);
+    const double c = std::cos(altitude), s = std::sin(altitude), l = luminance(altitude);
+    float* node = &node_[(static_cast<std::size_t>(column) * static_cast<std::size_t>(rows_ + 1) +
+                          static_cast<std::size_t>(row)) * kNodeFloats];
+    node[0] = static_cast<float>(along);
+    node[1] = static_cast<float>(l * c * c * row_rad_);
+    node[2] = static_cast<float>(up);
+    node[3] = static_cast<float>(l * s * c * row_rad_);
+    for (std::size_t k = 0; k < kNode.size() && row < rows_; ++k) {
+      const double at = altitude + 0.5 * row_rad_ * (1.0 + kNode[k]);
+      const double weighted = 0.5 * row_rad_ * kWeight[k] * luminance(at);
+      along += weighted * std::cos(at) * std::cos(at);
+      up += weighted * std::sin(at) * std::cos(at);
+    }
+  }
+}
+
+SkyTable::Column SkyTable::column(double azimuth_rad) const {
+  const double turns = azimuth_rad / (2.0 * kPi);
+  const double place = (turns - std::floor(turns)) * columns_;
+  const int left = std::min(static_cast<int>(place), columns_ - 1);
+  const std::size_t pitch = static_cast<std::size_t>(rows_ + 1) * kNodeFloats;
+  Column result;
+  result.table_ = this;
+  result.left_ = &node_[static_cast<std::size_t>(left) * pitch];
+  result.right_ = &node_[static_cast<std::size_t>((left + 1) % columns_) * pitch];
+  result.weight_ = place - left;
+  return result;
+}
+
+SliceMoments SkyTable::Column::to(double altitude_rad) const {
+  const double place = std::clamp(altitude_rad / table_->row_rad_, 0.0, double(table_->rows_));
+  const int row = std::min(static_cast<int>(place), table_->rows_ - 1);
+  const double t = place - row;
+  const std::size_t at = static_cast<std::size_t>(row) * kNodeFloats;
+  const auto blend = [&](std::size_t k) {
+    return left_[at + k] + weight_ * (right_[at + k] - left_[at + k]);
+  };
+  return {hermite(t, blend(0), blend(1), blend(4), blend(5)),
+          hermite(t, blend(2), blend(3), blend(6), blend(7))};
+}
+
+double SkyTable::unobstructed_lux(Vec3 normal) const {
+  // Between the columns the table is linear, so a few points a column sum it up well.
+  const int slices = 2 * columns_;
+  double sum = 0.0;
+  for (int k = 0; k < slices; ++k) {
+    const double azimuth = 2.0 * kPi * (k + 0.5) / slices;
+    const double along = normal.x * std::sin(azimuth) + normal.y * std::cos(azimuth);
+    const FrontRange front = front_range(along, normal.z);
+    if (!(front.low < front.high)) continue;
+    const Column at = column(azimuth);
+    const SliceMoments m = at.to(front.high) - at.to(front.low);
+    sum += along * m.along + normal.z * m.up;
+  }
+  return sum * 2.0 * kPi / slices;
+}
+
+FrontRange front_range(double normal_along, double normal_up) {
+  if (normal_up > 0.0) {
+    return {normal_along >= 0.0 ? 0.0 : std::atan(-normal_along / normal_up), kHalfPi};
+  }
+  if (!(normal_along > 0.0)) return {0.0, 0.0};
+  return {0.0, normal_up == 0.0 ? kHalfPi : std::atan(normal_along / -normal_up)};
+}
+
+SliceMoments uniform_moments(double altitude_rad) {
+  const double s = std::sin(altitude_rad), c = std::cos(altitude_rad);
+  return {0.5 * (altitude_rad + s * c), 0.5 * s * s};
+}
+
+}  // namespace tenku

@@ -1,0 +1,77 @@
+/// The ray engine: Embree behind the visibility interface.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/vec3.h"
+#include "scene/material.h"
+#include "scene/triangle_soup.h"
+#include "visibility/mesh_adjacency.h"
+#include "visibility/visibility.h"
+
+namespace tenku {
+
+/// What a ray meets first.
+struct RayHit {
+  std::uint32_t triangle;
+  double distance_m;
+};
+
+/// Rays against the triangles of a scene.
+///
+/// Opaque triangles stop a ray; panes of glass let a part through that depends on the angle of
+/// incidence.
+///
+/// Frame    local east, north, up.
+/// Error    the geometry is stored in float about the local origin: 0.1 mm at 1 km.
+/// Threads  immutable after construction; may be shared.
+class RayVisibility : public Visibility {
+ public:
+  /// @param soup       kept by reference: it must outlive this object
+  /// @param materials  tells which triangles are glass
+  /// @throws ResourceError if the ray-tracing device fails or memory runs out
+  RayVisibility(const TriangleSoup& soup, const std::vector<Material>& materials);
+  ~RayVisibility() override;
+
+  std::string_view name() const override { return "rays"; }
+  void transmission(std::span<const Vec3> origin, std::span<const Vec3> direction,
+                    std::span<float> result) const override;
+
+  /// Whether an opaque triangle lies on the ray.
+  bool is_occluded(Vec3 origin, Vec3 direction) const;
+  /// First opaque triangle on the ray.
+  std::optional<RayHit> first_hit(Vec3 origin, Vec3 direction) const;
+  /// Product of the transmittances of the panes on the ray, whatever else is on it.
+  double glass_transmission(Vec3 origin, Vec3 direction,
+                            double distance_m = std::numeric_limits<double>::infinity()) const;
+  bool has_glass() const;
+
+  const TriangleSoup& soup() const { return soup_; }
+  const std::vector<Material>& materials() const { return materials_; }
+  const MeshAdjacency& adjacency() const { return adjacency_; }
+  Vec3 normal(std::uint32_t triangle) const;
+  /// Distance by which a point is lifted off a surface before rays leave it, in metres.
+  double lift_m() const { return lift_m_; }
+
+ private:
+  struct Device;
+  const TriangleSoup& soup_;
+  const std::vector<Material>& materials_;
+  MeshAdjacency adjacency_;
+  double lift_m_;
+  std::unique_ptr<Device> device_;
+};
+
+/// Transmittance of a clear pane at the given cosine of the angle of incidence.
+///
+/// Source   slab with multiple reflection inside, no coherence: mean over the polarisations of
+///          (1 - r) / (1 + r), r the Fresnel reflectance of one face. A pane given by its
+///          transmittance at normal incidence follows the same curve of index 1.52, scaled.
+double pane_transmittance(const Material& glass, double cos_incidence);
+
+}  // namespace tenku

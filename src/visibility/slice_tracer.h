@@ -1,0 +1,116 @@
+/// The visible sky in a vertical slice: the skyline, found exactly with a few rays.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/vec3.h"
+#include "visibility/ray_visibility.h"
+
+namespace tenku {
+
+/// A range of altitudes, in radians.
+struct AltitudeRange {
+  double low = 0.0, high = 0.0;
+};
+
+/// An edge of the mesh that bounds the visible sky, by its two vertices; none where the bound is
+/// the end of the slice itself.
+struct OutlineEdge {
+  std::uint32_t a = MeshAdjacency::kNone, b = MeshAdjacency::kNone;
+
+  /// Whether one outline goes on into the other: the same edge, or one that shares a vertex.
+  bool continues(OutlineEdge other) const {
+    return a == other.a || a == other.b || b == other.a || b == other.b;
+  }
+};
+
+/// Altitudes at which the sky shows in one vertical half-plane, in rising order.
+struct VisibleSlice {
+  static constexpr int kMaximum = 8;
+  int count = 0;
+  std::array<AltitudeRange, kMaximum> range;
+  OutlineEdge low_edge, high_edge;
+
+  bool contains(double altitude_rad) const;
+  /// Takes the part between `low` and `high` away. What no longer fits is dropped.
+  void remove(double low, double high);
+};
+
+/// Follows outlines in vertical half-planes through one point.
+///
+/// A ray finds a triangle that hides the sky; from there the mesh itself is followed in the
+/// plane, from triangle to neighbour, until it turns back: that is where its outline stands,
+/// exactly. The next ray is sent just beyond. Most slices need one or two rays, because the
+/// triangles that bounded the last slice are followed first.
+///
+/// The result is a claim, not a proof: something that floats between the two ends of the visible
+/// range is not seen by it. `check` sends a ray at an altitude of the caller's choice and tells
+/// the truth there; what it finds is remembered for the slices that follow. The caller corrects
+/// the claim by the checks, so that its estimates are unbiased whatever the claim misses.
+///
+/// Threads  one tracer a thread; many may share the ray engine.
+class SliceTracer {
+ public:
+  SliceTracer(const RayVisibility& rays, Vec3 origin);
+
+  /// Visible altitudes in [low, high] toward `azimuth` (radians, clockwise from north), with
+  /// 0 <= low <= high <= pi/2.
+  VisibleSlice trace(double azimuth_rad, double low, double high);
+
+  /// Whether the sky shows at `altitude`, in the azimuth last traced. `claimed` is what `trace`
+  /// said there.
+  bool check(double altitude_rad, bool claimed);
+
+  /// Product of the transmittances of the panes at `altitude`, in the azimuth last traced.
+  double glass_transmission(double altitude_rad);
+
+  std::uint64_t rays_sent() const { return rays_sent_; }
+
+ private:
+  /// The vertical plane of the slice, in distances along (r) and across (s) it.
+  struct Plane {
+    Vec3 along, across;
+  };
+  /// A point in the plane: horizontal distance and height, both from the origin.
+  struct PlanePoint {
+    double r, z;
+  };
+  struct Outline {
+    double altitude;
+    std::uint32_t triangle;  ///< the last one on the way
+    double distance;         ///< of the outline, in metres
+    OutlineEdge edge;
+  };
+  /// Where the visible part of a slice ends, and what it remembers for the next slice.
+  struct End {
+    std::uint32_t hint = MeshAdjacency::kNone;
+    OutlineEdge edge;
+  };
+
+  Vec3 direction(double altitude_rad) const;
+  bool crosses(std::uint32_t triangle) const;
+  double across(std::uint32_t vertex) const;
+  PlanePoint edge_point(std::uint32_t a, std::uint32_t b) const;
+  /// Follows the mesh from `triangle` toward rising (+1) or falling (-1) altitude.
+  Outline follow(std::uint32_t triangle, int sense) const;
+  /// Climbs (or descends) from `start` until the sky shows or `limit` is passed.
+  double find_end(double start, double limit, int sense, End& end);
+  /// The triangle itself or a neighbour, whichever the slice cuts.
+  std::uint32_t cut_near(std::uint32_t triangle) const;
+  void remember(std::uint32_t triangle);
+  bool zenith_is_open();
+
+  static constexpr int kFloating = 6;
+
+  const RayVisibility& rays_;
+  Vec3 origin_;
+  Plane plane_{};
+  std::uint64_t rays_sent_ = 0;
+  End low_end_, high_end_;
+  int zenith_ = -1;  ///< -1 not asked yet, 0 hidden, 1 open
+  std::array<std::uint32_t, kFloating> floating_{};
+  int floating_count_ = 0, floating_next_ = 0;
+};
+
+}  // namespace tenku
