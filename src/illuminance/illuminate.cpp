@@ -8,6 +8,8 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/random.h"
+#include "illuminance/direct_cache.h"
+#include "illuminance/reflected_light.h"
 #include "illuminance/sensor_sky.h"
 #include "illuminance/sensor_sun.h"
 
@@ -30,17 +32,22 @@ void check_options(const IlluminanceOptions& options) {
 class SensorWork {
  public:
   SensorWork(const Sensors& sensors, std::size_t index, const RayVisibility& rays,
-             const DaylightSource& source, const IlluminanceOptions& options)
+             const DaylightSource& source, DirectCache& cache, const IlluminanceOptions& options)
       : options_(options),
         sky_(rays, source.sky.get(), sensors.position[index], sensors.normal[index],
              SampleRandom(options.seed, index, 0)),
         sun_(rays, source.sun, sensors.position[index], sensors.normal[index],
-             mix_bits(mix_bits(options.seed) + index)) {}
+             mix_bits(mix_bits(options.seed) + index)),
+        reflected_(rays, cache, options.bounces, sensors.position[index], sensors.normal[index],
+                   SampleRandom(options.seed, index, 1)) {}
 
   /// Refines until the budget is met; false if the limit of effort came first.
   bool finish(const ErrorBudget& budget) {
     sun_.refine();
-    sky_.refine();
+    do {
+      sky_.refine();
+    } while (sky_.may_miss_openings());
+    if (options_.bounces > 0) reflected_.refine();
     while (variance() > budget.allowed_variance(total())) {
       if (!refine_worst()) return false;
     }
@@ -50,39 +57,43 @@ class SensorWork {
   void store(SensorIlluminance& values, std::size_t index) const {
     values.sun_lux[index] = sun_.lux();
     values.sky_lux[index] = sky_.lux();
-    values.reflected_lux[index] = 0.0;
+    values.reflected_lux[index] = std::max(0.0, reflected_.lux());
     values.sky_view[index] = sky_.sky_view();
-    values.error_lux[index] = interval_lux(variance(), 0.0);
+    values.error_lux[index] = interval_lux(variance(), reflected_.left_out_lux());
   }
 
-  std::uint64_t rays_sent() const { return sky_.rays_sent() + sun_.rays_sent(); }
+  std::uint64_t rays_sent() const { 
+    return sky_.rays_sent() + sun_.rays_sent() + reflected_.rays_sent();
+  }
 
  private:
-  double total() const { return sky_.lux() + sun_.lux(); }
-  double variance() const { return sky_.variance() + sun_.variance(); }
+  double total() const { return sky_.lux() + sun_.lux() + reflected_.lux(); }
+  double variance() const { return sky_.variance() + sun_.variance() + reflected_.variance(); }
 
+  /// Doubles the effort of the least certain part that can still be refined.
   bool refine_worst() {
-    const bool sky_can = sky_.slices() < options_.most_slices;
-    const bool sun_can = !sun_.is_settled();
-    if (sun_can && (sun_.variance() >= sky_.variance() || !sky_can)) {
-      sun_.refine();
-    } else if (sky_can) {
+    const double sky = sky_.slices() < options_.most_slices ? sky_.variance() : 0.0;
+    const double sun = sun_.rays_sent() < std::uint64_t(options_.most_paths) ? sun_.variance() : 0.0;
+    const double reflected = reflected_.paths() < options_.most_paths ? reflected_.variance() : 0.0;
+    const double worst = std::max({sky, sun, reflected});
+    if (!(worst > 0.0)) return false;
+    if (worst == reflected) {
+      reflected_.refine();
+    } else if (worst == sky) {
       sky_.refine();
+    } else {
+      sun_.refine();
     }
-    return sky_can || sun_can;
+    return true;
   }
 
   const IlluminanceOptions& options_;
   SensorSky sky_;
   SensorSun sun_;
+  ReflectedLight reflected_;
 };
 
 }  // namespace
-
-double DaylightSource::unobstructed_lux() const {
-  const double from_sun = sun.normal_illuminance.value() * std::max(0.0, sun.direction.z);
-  return (sky ? sky->horizontal_lux() : 0.0) + from_sun;
-}
 
 IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
                              const DaylightSource& source, const IlluminanceOptions& options,
@@ -93,18 +104,19 @@ IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
   result.values = SensorIlluminance(sensors.size());
   std::atomic<std::uint64_t> rays_sent{0};
   std::atomic<std::size_t> missed{0};
+  DirectCache cache(rays, source, options.seed);
   progress.begin("illuminance", sensors.size());
   parallel_for(sensors.size(), kGrain, [&](IndexRange range) {
     progress.stop_if_cancelled();
     for (std::size_t i = range.begin; i < range.end; ++i) {
-      SensorWork work(sensors, i, rays, source, options);
+      SensorWork work(sensors, i, rays, source, cache, options);
       if (!work.finish(budget)) ++missed;
       work.store(result.values, i);
       rays_sent += work.rays_sent();
     }
     progress.advance(range.end - range.begin);
   });
-  result.rays = rays_sent;
+  result.rays = rays_sent + cache.rays_sent();
   result.out_of_tolerance = missed;
   progress.end(std::to_string(sensors.size()) + " sensors, " + std::to_string(result.rays) +
                " rays");

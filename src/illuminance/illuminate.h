@@ -2,27 +2,16 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "core/finding.h"
 #include "core/progress.h"
+#include "illuminance/daylight_source.h"
 #include "illuminance/error_budget.h"
 #include "illuminance/sensor.h"
-#include "illuminance/sky_table.h"
-#include "sky_models/sky_model.h"
 #include "visibility/ray_visibility.h"
 
 namespace tenku {
-
-/// What shines: the sky as a table (null: none) and the sun (zero illuminance: none).
-struct DaylightSource {
-  std::unique_ptr<SkyTable> sky;
-  SolarDisc sun;
-
-  /// Illuminance of the unobstructed horizontal plane from both.
-  double unobstructed_lux() const;
-};
 
 struct IlluminanceOptions {
   double tolerance_pct = 2.0;

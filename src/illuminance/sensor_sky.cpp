@@ -11,6 +11,9 @@ constexpr int kRareCheck = 4;       // one slice in so many is checked while all
 constexpr int kDenseChecks = 4;     // rays a checked slice, where the checks dominate the error
 constexpr double kPiece = 0.1;      // radians of altitude over which panes count as one angle
 constexpr int kBisections = 16;
+constexpr double kWorthHalving = 0.2;  // of the worst gap's error
+constexpr std::size_t kLookInto = 8;   // one gap in so many is halved in any case
+constexpr double kSmoothShare = 0.05;  // of the correction for the slopes: what is wrong with it
 
 constexpr double square(double x) { return x * x; }
 
@@ -34,23 +37,33 @@ struct SensorSky::Work {
   double measure(double from, double to) const { return column ? lux(from, to) : view(from, to); }
 };
 
-bool SensorSky::Slice::continues(const Slice& other) const {
-  return ranges == other.ranges && ranges <= 1 && low_edge.continues(other.low_edge) &&
-         high_edge.continues(other.high_edge);
-}
+SensorSky::SensorSky(const RayVisibility& rays, const SkyTable* table, Vec3 position, Vec3 normal,
+                     SampleRandom random, Effort effort)
+    : rays_(rays), table_(table), normal_(normal), random_(random), effort_(effort),
+      tracer_(rays, position + rays.lift_m() * normal), start_(2.0 * kPi * random_.uniform()) {}
 
 SensorSky::SensorSky(const RayVisibility& rays, const SkyTable* table, Vec3 position, Vec3 normal,
                      SampleRandom random)
-    : rays_(rays), table_(table), normal_(normal), random_(random),
-      tracer_(rays, position + rays.lift_m() * normal), start_(2.0 * kPi * random_.uniform()) {}
+    : SensorSky(rays, table, position, normal, random, Effort{}) {}
 
 void SensorSky::refine() {
-  const std::size_t old = slice_.size(), count = old == 0 ? kFirstSlices : 2 * old;
+  if (resolved_) {
+    halve_gaps();
+  } else {
+    double_evenly();
+    resolved_ = is_resolved();
+  }
+  summarise();
+}
+
+void SensorSky::double_evenly() {
+  const std::size_t old = slice_.size();
+  const std::size_t count = old == 0 ? static_cast<std::size_t>(effort_.first_slices) : 2 * old;
   const double pitch = 2.0 * kPi / static_cast<double>(count);
-  const double checks_variance = square(2.0 * kPi / static_cast<double>(std::max<std::size_t>(
-                                     old, 1))) * checks_.lux_squared;
   const bool all_well = old > 0 && checks_.lux_squared == 0.0 && checks_.view == 0.0;
-  const int checks = checks_variance > 0.5 * variance_ ? kDenseChecks : 1;
+  const int checks = checks_.lux_squared > 0.5 * variance_ ? kDenseChecks : 1;
+  // All slices stand for half as much azimuth as before, and so do their checks.
+  checks_ = {0.5 * checks_.lux, 0.5 * checks_.view, 0.25 * checks_.lux_squared};
   std::vector<Slice> refined(count);
   for (std::size_t i = 0; i < count; ++i) {
     if (old > 0 && i % 2 == 0) {
@@ -59,11 +72,86 @@ void SensorSky::refine() {
     }
     const double azimuth =
         start_ + pitch * static_cast<double>(i) + kScatter * (random_.uniform() - 0.5);
-    const bool checked = !all_well || (i / 2) % kRareCheck == 0;
-    refined[i] = make_slice(azimuth, checked ? checks : 0, all_well ? kRareCheck : 1);
+    const bool checked = effort_.checked && (!all_well || (i / 2) % kRareCheck == 0);
+    refined[i] = make_slice(azimuth, checked ? checks : 0, pitch * (all_well ? kRareCheck : 1));
   }
   slice_ = std::move(refined);
-  summarise();
+}
+
+void SensorSky::halve_gaps() {
+  const std::size_t count = slice_.size();
+  double worst = 0.0;
+  for (std::size_t i = 0; i < count; ++i) worst = std::max(worst, gap_error(i));
+  std::vector<Slice> refined;
+  refined.reserve(count + count / 4);
+  surprise_variance_ = 0.0;
+  ++halvings_;
+  for (std::size_t i = 0; i < count; ++i) {
+    refined.push_back(slice_[i]);
+    const bool is_worst = gap_error(i) > kWorthHalving * worst;
+    const bool is_look = (i + halvings_) % kLookInto == 0;
+    if (!is_worst && !is_look) continue;
+    const double width = width_after(i);
+    const Slice middle =
+        make_slice(slice_[i].azimuth + width * (0.4 + 0.2 * random_.uniform()), 0, 0.0);
+    const bool expected_smooth = gap_between(at(i), at(i + 1)) != Gap::Step;
+    if (expected_smooth && (gap_between(at(i), middle) == Gap::Step ||
+                            gap_between(middle, at(i + 1)) == Gap::Step)) {
+      surprise_variance_ += square(width * (middle.lux - 0.5 * (at(i).lux + at(i + 1).lux)));
+    }
+    refined.push_back(middle);
+  }
+  slice_ = std::move(refined);
+}
+
+SensorSky::Gap SensorSky::gap_between(const Slice& a, const Slice& b) {
+  if (a.ranges != b.ranges || a.ranges > 1) return Gap::Step;
+  if (a.low_edge == b.low_edge && a.high_edge == b.high_edge) return Gap::Smooth;
+  return a.low_edge.touches(b.low_edge) && a.high_edge.touches(b.high_edge) ? Gap::Kink
+                                                                            : Gap::Step;
+}
+
+/// Few steps, none next to another: then the slices show all there is, as far as they can tell.
+bool SensorSky::is_resolved() {
+  std::size_t steps = 0, crowded = 0;
+  seeing_ = 0;
+  bool before = gap_between(at(slice_.size() - 1), at(0)) == Gap::Step;
+  for (std::size_t i = 0; i < slice_.size(); ++i) {
+    const bool step = gap_between(at(i), at(i + 1)) == Gap::Step;
+    steps += step;
+    crowded += step && before;
+    seeing_ += slice_[i].ranges > 0;
+    before = step;
+  }
+  return crowded == 0 && 4 * steps <= slice_.size() && seeing_ >= kSeeing;
+}
+
+double SensorSky::width_after(std::size_t i) const {
+  const double width = at(i + 1).azimuth - slice_[i].azimuth;
+  return i + 1 < slice_.size() ? width : width + 2.0 * kPi;
+}
+
+/// Slope of the illuminance at a slice, from the neighbours that no step separates from it.
+double SensorSky::slope_at(std::size_t i, double Slice::*value) const {
+  const std::size_t count = slice_.size(), before = (i + count - 1) % count;
+  const Slice &here = at(i), &left = at(before), &right = at(i + 1);
+  const bool has_left = gap_between(left, here) != Gap::Step;
+  const bool has_right = gap_between(here, right) != Gap::Step;
+  const double wl = width_after(before), wr = width_after(i);
+  const double sl = wl > 0.0 ? (here.*value - left.*value) / wl : 0.0;
+  const double sr = wr > 0.0 ? (right.*value - here.*value) / wr : 0.0;
+  if (has_left && has_right) return (wr * sl + wl * sr) / (wl + wr);  // parabola through three
+  return has_left ? sl : has_right ? sr : 0.0;
+}
+
+double SensorSky::gap_error(std::size_t i) const {
+  const double width = width_after(i);
+  const std::size_t next = (i + 1) % slice_.size();
+  const Gap gap = gap_between(at(i), at(next));
+  if (gap == Gap::Step) return width * std::abs(at(next).lux - at(i).lux) / std::sqrt(12.0);
+  const double correction =
+      square(width) / 12.0 * std::abs(slope_at(next, &Slice::lux) - slope_at(i, &Slice::lux));
+  return gap == Gap::Kink ? correction : kSmoothShare * correction;
 }
 
 SensorSky::Slice SensorSky::make_slice(double azimuth_rad, int checks, double weight) {
@@ -72,6 +160,7 @@ SensorSky::Slice SensorSky::make_slice(double azimuth_rad, int checks, double we
   work.up = normal_.z;
   work.front = front_range(work.along, work.up);
   Slice slice;
+  slice.azimuth = azimuth_rad;
   slice.ranges = 1;
   if (!(work.front.low < work.front.high)) return slice;
   if (table_ != nullptr) work.column = table_->column(azimuth_rad);
@@ -136,36 +225,48 @@ void SensorSky::check(const Work& work, int checks, double weight) {
   checks_.lux_squared += square(lux);
 }
 
-double SensorSky::step_variance() const {
+SensorSky::Sum SensorSky::even_sum() const {
   const std::size_t count = slice_.size();
   const double pitch = 2.0 * kPi / static_cast<double>(count);
-  double sum = 0.0;
+  Sum sum;
   for (std::size_t i = 0; i < count; ++i) {
-    const Slice &before = slice_[(i + count - 1) % count], &here = slice_[i],
-                &after = slice_[(i + 1) % count];
+    const Slice &before = at(i + count - 1), &here = slice_[i], &after = at(i + 1);
+    sum.lux += pitch * here.lux;
+    sum.view += pitch * here.view;
     const double bend = here.lux - 0.5 * (before.lux + after.lux);
-    // A kink of slope change c gives sum(bend^2) = (wc)^2 / 6 and a variance of w^4 c^2 / 720.
-    const bool is_smooth = before.continues(here) && here.continues(after);
-    if (!is_smooth) {
-      sum += square(bend) * (1.0 / 6.0 + kScatter / (3.0 * pitch));
+    if (gap_between(before, here) == Gap::Step || gap_between(here, after) == Gap::Step) {
+      sum.variance += square(pitch * bend) * (1.0 / 6.0 + kScatter / (3.0 * pitch));
       continue;
     }
+    // A kink of slope change c gives sum(bend^2) = (wc)^2 / 6 and a variance of w^4 c^2 / 720.
     const double rise = 0.5 * (after.lux - before.lux) / pitch;
-    sum += square(bend) / 120.0 + square(rise * kScatter) / 12.0;
+    sum.variance += square(pitch) * (square(bend) / 120.0 + square(rise * kScatter) / 12.0);
   }
   return sum;
 }
 
-void SensorSky::summarise() {
-  const double pitch = 2.0 * kPi / static_cast<double>(slice_.size());
-  double lux = checks_.lux, view = checks_.view;
-  for (const Slice& slice : slice_) {
-    lux += slice.lux;
-    view += slice.view;
+SensorSky::Sum SensorSky::halved_sum() const {
+  Sum sum;
+  const auto gap_integral = [&](std::size_t i, std::size_t next, double Slice::*value) {
+    const double width = width_after(i), flat = 0.5 * width * (at(i).*value + at(next).*value);
+    if (gap_between(at(i), at(next)) == Gap::Step) return flat;
+    return flat - square(width) / 12.0 * (slope_at(next, value) - slope_at(i, value));
+  };
+  for (std::size_t i = 0; i < slice_.size(); ++i) {
+    const std::size_t next = (i + 1) % slice_.size();
+    sum.lux += gap_integral(i, next, &Slice::lux);
+    sum.view += gap_integral(i, next, &Slice::view);
+    sum.variance += square(gap_error(i));
   }
-  lux_ = std::max(0.0, pitch * lux);
-  sky_view_ = std::clamp(pitch * view, 0.0, 1.0);
-  variance_ = square(pitch) * (step_variance() + checks_.lux_squared);
+  sum.variance += surprise_variance_;
+  return sum;
+}
+
+void SensorSky::summarise() {
+  const Sum sum = resolved_ ? halved_sum() : even_sum();
+  lux_ = sum.lux + checks_.lux;
+  sky_view_ = std::clamp(sum.view + checks_.view, 0.0, 1.0);
+  variance_ = sum.variance + checks_.lux_squared;
 }
 
 }  // namespace tenku

@@ -12,73 +12,115 @@ namespace tenku {
 
 /// Illuminance of one sensor from the visible sky, with its standard error.
 ///
-/// The azimuths of the slices stand at equal steps from a random start; each slice is exact in
-/// altitude (SliceTracer), so that what is left is a sum over azimuth of a function that is
-/// smooth but where one outline gives way to another. Doubling the slices keeps the old ones.
+/// Each slice is exact in altitude (SliceTracer); what is left is a sum over azimuth of a function
+/// that is smooth but for steps, where one outline gives way to another, and kinks, where an
+/// outline has a corner. Two ways, one after the other:
+///          even: slices at equal steps from a random start, doubled until most gaps between
+///            slices hold no step. Unbiased, whatever is too thin to be resolved;
+///          halving: once steps are few and apart, the gaps that hold them are halved, and some
+///            of the others, to see whether they hide anything. Smooth gaps are summed up with
+///            the slopes at their ends.
 ///
-/// Error    three parts, all independent and added as variances:
-///          steps: the place of a step between two slices is unknown. With second differences
-///            r = f(i) - (f(i-1) + f(i+1)) / 2 beside steps, w the pitch, its variance is
-///            w^2 sum(r^2) (1/6 + s/3w), s the scatter (a step of height h gives
-///            sum(r^2) = h^2/2 and an error that is uniform in [-wh/2, wh/2], to which each slice
-///            within s of the step adds its chance to lie on either side);
+/// Error    parts that are independent and added as variances. With w the width of a gap:
+///          steps, even: the place of a step in its gap is unknown. With second differences
+///            r = f(i) - (f(i-1) + f(i+1)) / 2 beside steps, variance w^2 sum(r^2) (1/6 + s/3w),
+///            s the scatter (a step of height h gives sum(r^2) = h^2/2 and an error that is
+///            uniform in [-wh/2, wh/2], to which each slice within s of the step adds its chance
+///            to lie on either side);
+///          steps, halving: (wh)^2 / 12 each; kinks: the whole correction for the slopes;
 ///          scatter: each azimuth is moved at random by up to +-kScatter/2, which gives smooth
 ///            parts an error of known size;
+///          surprises: what the last halving found where nothing was expected;
 ///          checks: rays at random altitudes measure what the slices missed.
 class SensorSky {
  public:
+  static constexpr int kFirstSlices = 16;
+  /// How the first slices are made.
+  struct Effort {
+    int first_slices = kFirstSlices;
+    bool checked = true;  ///< without checks the result may be biased
+  };
+
   /// @param table   null for no sky: only the sky view factor is found
   /// @param normal  unit vector
   SensorSky(const RayVisibility& rays, const SkyTable* table, Vec3 position, Vec3 normal,
+            SampleRandom random, Effort effort);
+  SensorSky(const RayVisibility& rays, const SkyTable* table, Vec3 position, Vec3 normal,
             SampleRandom random);
 
-  /// Doubles the slices (the first call makes `kFirstSlices`).
+  /// Adds slices: as many as there are, or those that halving needs (the first call makes the first).
   void refine();
 
-  double lux() const { return lux_; }
+  double lux() const { return lux_ > 0.0 ? lux_ : 0.0; }
+  /// The same before it is kept from falling below zero: unbiased.
+  double signed_lux() const { return lux_; }
   double sky_view() const { return sky_view_; }
   double variance() const { return variance_; }  ///< of `lux`, lux^2
+  /// Whether so few slices have seen the sky that there may be openings between them.
+  bool may_miss_openings() const { return seeing_ < kSeeing && slices() < kEnoughToBeDark; }
   int slices() const { return static_cast<int>(slice_.size()); }
   std::uint64_t rays_sent() const { return tracer_.rays_sent(); }
 
-  static constexpr int kFirstSlices = 16;
+  static constexpr int kSeeing = 4;            ///< slices that must see the sky to trust steps
+  static constexpr int kEnoughToBeDark = 256;  ///< slices, none of which sees the sky
   static constexpr double kScatter = 0.002;  // radians
 
  private:
   /// What one slice gives, per radian of azimuth.
   struct Slice {
+    double azimuth = 0.0;
     double lux = 0.0, view = 0.0;
     OutlineEdge low_edge, high_edge;
     int ranges = 0;
-    bool continues(const Slice& other) const;
   };
+  /// What lies between two neighbouring slices.
+  enum class Gap { Smooth, Kink, Step };
   /// A visible range of altitudes, with the transmittance of the panes before it.
   struct Piece {
     AltitudeRange range;
     double transmittance;
   };
-  /// Sums over the slices of what their checks found, weighted by how rarely they were made.
+  /// Sums over the slices of what their checks found, weighted by how rarely they were made and
+  /// by the azimuth each stands for.
   struct CheckSums {
     double lux = 0.0, view = 0.0, lux_squared = 0.0;
   };
   /// One slice on its way.
   struct Work;
+  struct Sum {
+    double lux = 0.0, view = 0.0, variance = 0.0;
+  };
 
+  static Gap gap_between(const Slice& a, const Slice& b);
+  const Slice& at(std::size_t i) const { return slice_[i % slice_.size()]; }
+  double width_after(std::size_t i) const;
+  double slope_at(std::size_t i, double Slice::*value) const;
+  double gap_error(std::size_t i) const;
+
+  void double_evenly();
+  void halve_gaps();
+  bool is_resolved();
   Slice make_slice(double azimuth_rad, int checks, double weight);
   void claim(Work& work);
   void check(const Work& work, int checks, double weight);
+  Sum even_sum() const;
+  Sum halved_sum() const;
   void summarise();
-  double step_variance() const;
 
   const RayVisibility& rays_;
   const SkyTable* table_;
   Vec3 normal_;
   SampleRandom random_;
+  Effort effort_;
   SliceTracer tracer_;
   double start_ = 0.0;
   std::vector<Slice> slice_;  ///< in the order of their azimuths
   std::vector<Piece> piece_;  ///< of the last slice
   CheckSums checks_;
+  bool resolved_ = false;
+  int seeing_ = 0;
+  double surprise_variance_ = 0.0;
+  std::uint32_t halvings_ = 0;
   double lux_ = 0.0, sky_view_ = 0.0, variance_ = 0.0;
 };
 

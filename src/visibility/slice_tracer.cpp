@@ -11,6 +11,7 @@ constexpr std::uint32_t kNone = MeshAdjacency::kNone;
 constexpr double kHalfPi = std::numbers::pi / 2.0;
 constexpr int kMostSteps = 2000;  // along one mesh; longer chains are cut, and the check tells
 constexpr int kMostClimbs = 48;
+constexpr double kTouching = 1e-4;  // radians between two surfaces that count as one
 constexpr double kBeyond = 1e-5;  // radians past an outline at which the next ray is sent
 
 }  // namespace
@@ -115,7 +116,9 @@ double SliceTracer::find_end(double start, double limit, int sense, End& end) {
   const std::uint32_t known = cut_near(end.hint);
   if (known != kNone) {
     const Outline outline = follow(known, sense);
-    if (sense * (outline.altitude - at) > 0.0) {
+    // It bounds this slice too only if it hides all from the start on.
+    const bool reaches_back = sense * (follow(known, -sense).altitude - at) <= kTouching;
+    if (reaches_back && sense * (outline.altitude - at) > 0.0) {
       at = outline.altitude;
       beyond = kBeyond;
       end = {known, outline.edge};

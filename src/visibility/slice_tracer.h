@@ -19,8 +19,9 @@ struct AltitudeRange {
 struct OutlineEdge {
   std::uint32_t a = MeshAdjacency::kNone, b = MeshAdjacency::kNone;
 
+  friend constexpr bool operator==(OutlineEdge, OutlineEdge) = default;
   /// Whether one outline goes on into the other: the same edge, or one that shares a vertex.
-  bool continues(OutlineEdge other) const {
+  bool touches(OutlineEdge other) const {
     return a == other.a || a == other.b || b == other.a || b == other.b;
   }
 };

@@ -1,0 +1,117 @@
+#include "illuminance/direct_cache.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <unordered_map>
+
+#include "core/random.h"
+#include "illuminance/sensor_sky.h"
+
+namespace tenku {
+namespace {
+
+constexpr double kPitchPerDistance = 0.125;
+constexpr double kLeastPitch_m = 0.0625;
+
+/// The point of a triangle closest to `p`.
+///
+/// Source   C. Ericson, "Real-Time Collision Detection", 2005, section 5.1.5: the regions of the
+///          plane in barycentric terms.
+Vec3 closest_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
+  const auto on_segment = [&](Vec3 s, Vec3 e) {
+    const Vec3 d = e - s;
+    const double squared = dot(d, d);
+    const double t = squared > 0.0 ? std::clamp(dot(p - s, d) / squared, 0.0, 1.0) : 0.0;
+    return s + t * d;
+  };
+  const Vec3 n = cross(b - a, c - a);
+  const double area = dot(n, n);
+  if (area > 0.0) {
+    const double u = dot(cross(c - b, p - b), n) / area, v = dot(cross(a - c, p - c), n) / area;
+    if (u >= 0.0 && v >= 0.0 && u + v <= 1.0) return u * a + v * b + (1.0 - u - v) * c;
+  }
+  Vec3 best = on_segment(a, b);
+  for (const Vec3 other : {on_segment(b, c), on_segment(c, a)}) {
+    if (length(other - p) < length(best - p)) best = other;
+  }
+  return best;
+}
+
+struct Cell {
+  std::uint64_t key;
+  Vec3 centre;
+};
+
+Cell cell_of(std::uint32_t triangle, bool front, Vec3 point, double distance_m) {
+  const double wanted = std::max(kPitchPerDistance * distance_m, kLeastPitch_m);
+  const int level = static_cast<int>(std::ceil(std::log2(wanted)));
+  const double pitch = std::exp2(level);
+  const double i = std::floor(point.x / pitch), j = std::floor(point.y / pitch),
+               k = std::floor(point.z / pitch);
+  std::uint64_t key = mix_bits(2 * std::uint64_t{triangle} + (front ? 1 : 0));
+  key = mix_bits(key + static_cast<std::uint64_t>(level + 64));
+  for (const double index : {i, j, k}) {
+    key = mix_bits(key + static_cast<std::uint64_t>(static_cast<std::int64_t>(index)));
+  }
+  return {key, {(i + 0.5) * pitch, (j + 0.5) * pitch, (k + 0.5) * pitch}};
+}
+
+}  // namespace
+
+struct DirectCache::Shard {
+  std::mutex mutex;
+  std::unordered_map<std::uint64_t, float> value;
+};
+
+DirectCache::DirectCache(const RayVisibility& rays, const DaylightSource& source,
+                         std::uint64_t seed)
+    : rays_(rays), source_(source), seed_(seed),
+      shards_(std::make_unique<std::array<Shard, kShards>>()) {}
+
+DirectCache::~DirectCache() = default;
+
+double DirectCache::lux(std::uint32_t triangle, Vec3 point, Vec3 normal, double distance_m) {
+  const bool front = dot(normal, rays_.normal(triangle)) > 0.0;
+  const Cell cell = cell_of(triangle, front, point, distance_m);
+  Shard& shard = (*shards_)[cell.key % kShards];
+  {
+    const std::lock_guard lock(shard.mutex);
+    if (const auto found = shard.value.find(cell.key); found != shard.value.end()) {
+      return found->second;
+    }
+  }
+  const TriangleSoup& soup = rays_.soup();
+  const auto& [a, b, c] = soup.triangles[triangle];
+  const Vec3 va = soup.vertices[a], vb = soup.vertices[b], vc = soup.vertices[c];
+  // A little toward the middle, off the edges, where neighbours would hide half of the sky.
+  const Vec3 edge_point = closest_on_triangle(cell.centre, va, vb, vc);
+  const Vec3 place = 0.98 * edge_point + 0.02 * (1.0 / 3.0 * (va + vb + vc));
+  const auto value = static_cast<float>(measure(place, normal, cell.key));
+  const std::lock_guard lock(shard.mutex);
+  shard.value.emplace(cell.key, value);
+  return value;
+}
+
+double DirectCache::measure(Vec3 point, Vec3 normal, std::uint64_t key) {
+  double lux = 0.0;
+  if (source_.sky) {
+    SensorSky sky(rays_, source_.sky.get(), point, normal, SampleRandom(seed_, key, 1),
+                  SensorSky::Effort{.first_slices = 8, .checked = false});
+    sky.refine();
+    lux += sky.lux();
+    rays_sent_ += sky.rays_sent();
+  }
+  const double cosine = dot(normal, source_.sun.direction);
+  const double normal_lux = source_.sun.normal_illuminance.value();
+  if (normal_lux > 0.0 && cosine > 0.0 && source_.sun.direction.z > 0.0) {
+    const Vec3 origin = point + rays_.lift_m() * normal;
+    ++rays_sent_;
+    if (!rays_.is_occluded(origin, source_.sun.direction)) {
+      lux += normal_lux * cosine * rays_.glass_transmission(origin, source_.sun.direction);
+    }
+  }
+  return lux;
+}
+
+}  // namespace tenku

@@ -1,0 +1,177 @@
+#include "illuminance/reflected_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/low_discrepancy.h"
+#include "illuminance/sensor_sky.h"
+#include "illuminance/sensor_sun.h"
+
+namespace tenku {
+namespace {
+
+constexpr int kCertainBounces = 8;  // after these a path goes on by chance
+constexpr int kMostMirrors = 8;     // in a row
+constexpr int kSunRays = 4;         // of a true value
+
+// Student's t over the normal quantile, squared: 15 and 7 degrees of freedom, at 95 %.
+constexpr double kWiden15 = 1.183, kWiden7 = 1.456;
+
+Vec3 cosine_direction(Vec3 normal, double u, double v) {
+  const auto [tangent, bitangent] = tangent_frame(normal);
+  const double radius = std::sqrt(u), turn = 2.0 * kPi * v;
+  return normalized(radius * std::cos(turn) * tangent + radius * std::sin(turn) * bitangent +
+                    std::sqrt(1.0 - u) * normal);
+}
+
+}  // namespace
+
+/// A place where a path meets a diffuse surface.
+struct ReflectedLight::Vertex {
+  int order;              ///< 1 for the first
+  Rgb weight;             ///< what of its exitance reaches the sensor
+  const Material& material;
+  std::uint32_t triangle;
+  Vec3 point, normal;     ///< the normal on the side of the path
+  double distance_m;
+};
+
+ReflectedLight::ReflectedLight(const RayVisibility& rays, DirectCache& cache, int bounces,
+                               Vec3 position, Vec3 normal, SampleRandom random)
+    : rays_(rays), cache_(cache), bounces_(bounces), origin_(position + rays.lift_m() * normal),
+      normal_(normal), scramble_(random.bits()), batch_sum_(kBatches),
+      order_sum_(static_cast<std::size_t>(bounces) + 1) {}
+
+template <class AtVertex>
+void ReflectedLight::trace_path(PathStart start, const AtVertex& at_vertex) {
+  Rgb weight{1.0, 1.0, 1.0};
+  Vec3 origin = origin_, normal = normal_, direction{};
+  SampleRandom chance(start.scramble, start.index, 7);
+  int order = 1, mirrors = 0;
+  bool diffuse = true;
+  while (order <= bounces_) {
+    if (diffuse) {
+      const auto dimension = static_cast<unsigned>(2 * (order - 1));
+      direction = cosine_direction(normal, sobol_owen(start.index, dimension, start.scramble),
+                                   sobol_owen(start.index, dimension + 1, start.scramble));
+    }
+    ++rays_sent_;
+    const auto hit = rays_.first_hit(origin, direction);
+    if (!hit) return;
+    weight = rays_.glass_transmission(origin, direction, hit->distance_m) * weight;
+    const Vec3 face = rays_.normal(hit->triangle);
+    normal = dot(face, direction) < 0.0 ? face : -face;
+    const Vec3 point = origin + hit->distance_m * direction;
+    origin = point + rays_.lift_m() * normal;
+    const Material& material = rays_.materials()[rays_.soup().material[hit->triangle]];
+    const double diffuse_part = std::max({material.reflectance.r, material.reflectance.g,
+                                          material.reflectance.b});
+    const double to_mirror =
+        material.mirror > 0.0 ? material.mirror / (material.mirror + diffuse_part) : 0.0;
+    if (to_mirror > 0.0 && mirrors < kMostMirrors && chance.uniform() < to_mirror) {
+      weight = (material.mirror / to_mirror) * weight;
+      direction = direction - 2.0 * dot(direction, normal) * normal;
+      diffuse = false;
+      ++mirrors;
+      continue;
+    }
+    weight = (1.0 / (1.0 - to_mirror)) * weight;
+    at_vertex(Vertex{order, weight, material, hit->triangle, point, normal, hit->distance_m});
+    weight = weight * material.reflectance;
+    if (order >= kCertainBounces) {
+      if (!(chance.uniform() < diffuse_part)) return;
+      weight = (1.0 / diffuse_part) * weight;
+    }
+    diffuse = true;
+    ++order;
+  }
+}
+
+void ReflectedLight::trace_looked_up(int goal) {
+  for (; looked_up_paths_ < goal; ++looked_up_paths_) {
+    const auto batch = static_cast<std::size_t>(looked_up_paths_ % kBatches);
+    const PathStart start{static_cast<std::uint32_t>(looked_up_paths_ / kBatches),
+                          mix_bits(scramble_ + batch)};
+    trace_path(start, [&](const Vertex& v) {
+      const double direct = cache_.lux(v.triangle, v.point, v.normal, v.distance_m);
+      const Rgb leaving = v.material.emission_lm_m2 + direct * v.material.reflectance;
+      const double lux = luminance_of(v.weight * leaving);
+      batch_sum_[batch] += lux;
+      order_sum_[static_cast<std::size_t>(v.order)] += lux;
+    });
+  }
+  const double per_batch = static_cast<double>(looked_up_paths_) / kBatches;
+  double sum = 0.0, squares = 0.0;
+  for (const double batch : batch_sum_) sum += batch / per_batch;
+  const double mean = sum / kBatches;
+  for (const double batch : batch_sum_) squares += std::pow(batch / per_batch - mean, 2);
+  looked_up_ = {mean, kWiden15 * squares / (kBatches * (kBatches - 1.0))};
+}
+
+void ReflectedLight::trace_differences(int goal) {
+  for (; difference_paths_ < goal; ++difference_paths_) {
+    const auto index = static_cast<std::uint32_t>(difference_paths_);
+    const PathStart start{index, mix_bits(scramble_ ^ 0x5851f42d4c957f2dU)};
+    double lux = 0.0;
+    trace_path(start, [&](const Vertex& v) {
+      const std::uint64_t address = mix_bits(start.scramble + index) + static_cast<unsigned>(v.order);
+      const double missed = true_direct(v.point, v.normal, address) -
+                            cache_.lux(v.triangle, v.point, v.normal, v.distance_m);
+      lux += missed * luminance_of(v.weight * v.material.reflectance);
+    });
+    difference_sum_ += lux;
+    difference_squares_ += lux * lux;
+  }
+  const double n = difference_paths_, mean = difference_sum_ / n;
+  const double variance = std::max(0.0, difference_squares_ / n - mean * mean) / (n - 1.0);
+  difference_ = {mean, variance * (difference_paths_ <= kFirstDifferences ? kWiden7 : kWiden15)};
+}
+
+double ReflectedLight::true_direct(Vec3 point, Vec3 normal, std::uint64_t address) {
+  const DaylightSource& source = cache_.source();
+  double lux = 0.0;
+  if (source.sky) {
+    SensorSky sky(rays_, source.sky.get(), point, normal, SampleRandom(scramble_, address, 2),
+                  SensorSky::Effort{.first_slices = 8, .checked = true});
+    sky.refine();
+    lux += sky.signed_lux();
+    rays_sent_ += sky.rays_sent();
+  }
+  if (source.sun.normal_illuminance > Illuminance(0.0)) {
+    const TangentFrame frame = tangent_frame(source.sun.direction);
+    const Vec3 origin = point + rays_.lift_m() * normal;
+    for (std::uint32_t k = 0; k < kSunRays; ++k) {
+      const Vec3 direction = direction_on_disc(source.sun, frame, sobol_owen(k, 0, address),
+                                               sobol_owen(k, 1, address));
+      const double cosine = dot(normal, direction);
+      if (!(cosine > 0.0) || !(direction.z > 0.0)) continue;
+      ++rays_sent_;
+      if (rays_.is_occluded(origin, direction)) continue;
+      lux += source.sun.normal_illuminance.value() * cosine / kSunRays *
+             rays_.glass_transmission(origin, direction);
+    }
+  }
+  return lux;
+}
+
+void ReflectedLight::refine() {
+  if (looked_up_paths_ == 0) {
+    trace_looked_up(kFirstPaths);
+    trace_differences(kFirstDifferences);
+  } else if (looked_up_.variance > difference_.variance) {
+    trace_looked_up(2 * looked_up_paths_);
+  } else {
+    trace_differences(2 * difference_paths_);
+  }
+}
+
+double ReflectedLight::left_out_lux() const {
+  if (looked_up_paths_ == 0 || bounces_ < 1) return 0.0;
+  const double last = order_sum_[static_cast<std::size_t>(bounces_)] / looked_up_paths_;
+  if (bounces_ == 1) return last;  // nothing tells how fast it falls
+  const double before = order_sum_[static_cast<std::size_t>(bounces_) - 1] / looked_up_paths_;
+  const double ratio = before > 0.0 ? std::min(last / before, 0.95) : 0.0;
+  return last * ratio / (1.0 - ratio);
+}
+
+}  // namespace tenku

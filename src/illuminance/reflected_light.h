@@ -1,0 +1,68 @@
+/// Light that reaches a sensor by way of diffuse surfaces: path tracing.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/random.h"
+#include "illuminance/direct_cache.h"
+#include "visibility/ray_visibility.h"
+
+namespace tenku {
+
+/// Illuminance of one sensor by one to `bounces` diffuse reflections, with its standard error.
+///
+/// A path leaves the sensor in proportion to the cosine (Owen-scrambled Sobol) and goes on in the
+/// same way at each surface it meets, where the direct illuminance is looked up in a cache. A few
+/// paths more, drawn apart, measure the truth where they land and take the mean of its difference
+/// from the cache: what the cache gets wrong becomes noise, never bias. Emitting surfaces count
+/// where paths meet them.
+///
+/// Error    looked-up paths: variance of the mean of `kBatches` independent scrambles, widened for
+///          its few degrees of freedom; difference: variance of the mean of its paths.
+class ReflectedLight {
+ public:
+  ReflectedLight(const RayVisibility& rays, DirectCache& cache, int bounces, Vec3 position,
+                 Vec3 normal, SampleRandom random);
+
+  /// Doubles the paths of the part that is the less certain; the first call starts both.
+  void refine();
+
+  double lux() const { return looked_up_.mean + difference_.mean; }
+  double variance() const { return looked_up_.variance + difference_.variance; }  ///< lux^2
+  /// Estimate of what bounces beyond the last would add.
+  double left_out_lux() const;
+  int paths() const { return looked_up_paths_ + difference_paths_; }
+  std::uint64_t rays_sent() const { return rays_sent_; }
+
+  static constexpr int kBatches = 16, kFirstPaths = 64, kFirstDifferences = 8;
+
+ private:
+  struct Estimate {
+    double mean = 0.0, variance = 0.0;
+  };
+  struct PathStart {
+    std::uint32_t index;
+    std::uint64_t scramble;
+  };
+  struct Vertex;
+
+  template <class AtVertex>
+  void trace_path(PathStart start, const AtVertex& at_vertex);
+  void trace_looked_up(int goal);
+  void trace_differences(int goal);
+  double true_direct(Vec3 point, Vec3 normal, std::uint64_t address);
+
+  const RayVisibility& rays_;
+  DirectCache& cache_;
+  int bounces_;
+  Vec3 origin_, normal_;
+  std::uint64_t scramble_;
+  Estimate looked_up_, difference_;
+  std::vector<double> batch_sum_, order_sum_;
+  double difference_sum_ = 0.0, difference_squares_ = 0.0;
+  int looked_up_paths_ = 0, difference_paths_ = 0;
+  std::uint64_t rays_sent_ = 0;
+};
+
+}  // namespace tenku
