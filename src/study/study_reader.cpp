@@ -257,7 +257,8 @@ void apply_overrides(Study& study, const StudyOverrides& overrides, const TomlSe
 }
 
 void check_whole(const Study& study, const TomlSection& document) {
-  if (study.scene.file.empty()) document.refuse("scene", "file in [scene] is missing");
+  if (study.scene.file.empty())
+    document.refuse("scene", "file in [scene] is missing, and --scene is not given");
   if (study.time.at.empty() && !study.time.sun_altitude) {
     document.refuse("time", "the study needs a time, at in [time], or the sun's place in [sun]");
   }

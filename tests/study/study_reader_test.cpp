@@ -235,7 +235,8 @@ TEST_F(StudyReader, RefusesWrongGround) {
 }
 
 TEST_F(StudyReader, NeedsASceneAndATimeOrASun) {
-  EXPECT_EQ(refusal("[time]\nat = \"x\"\n"), "study.toml:1: file in [scene] is missing");
+  EXPECT_EQ(refusal("[time]\nat = \"x\"\n"),
+            "study.toml:1: file in [scene] is missing, and --scene is not given");
   EXPECT_EQ(refusal("[scene]\nfile = \"a\"\n").rfind("study.toml:1: the study needs a time", 0),
             0U);
   EXPECT_EQ(refusal("[scene]\nfile = \"a\"\n[sun]\naltitude_deg = 1\nazimuth_deg = 2\n"), "");
