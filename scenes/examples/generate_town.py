@@ -42,14 +42,15 @@ class Town:
 
     def add_ground(self):
         xs, ys = grid_lines()
-        terrain, roads = [], {}
+        terrain, roads = {}, {}
         for i in range(len(xs) - 1):
             for j in range(len(ys) - 1):
                 self.add_cell(xs[i:i + 2], ys[j:j + 2], terrain, roads)
                 self.add_step((xs[i], ys[j]), (xs[i], ys[j + 1]), terrain)
                 self.add_step((xs[i + 1], ys[j]), (xs[i], ys[j]), terrain)
-        self.city.add("terrain", "TINRelief",
-                      [self.city.geometry("CompositeSurface", "1", self.local(terrain))])
+        for name, faces in sorted(terrain.items()):
+            self.city.add("terrain-" + name, "TINRelief",
+                          [self.city.geometry("CompositeSurface", "1", self.local(faces))])
         for name, faces in sorted(roads.items()):
             self.city.add(name, "Road",
                           [self.city.geometry("MultiSurface", "1", self.local(faces))])
@@ -69,7 +70,7 @@ class Town:
             roads.setdefault(kind, []).extend([("TrafficArea", [[a, b, c]]),
                                                ("TrafficArea", [[a, c, d]])])
         else:
-            terrain.extend([(None, [[a, b, c]]), (None, [[a, c, d]])])
+            terrain.setdefault(kind, []).extend([(None, [[a, b, c]]), (None, [[a, c, d]])])
 
     def add_step(self, p, q, terrain):
         """The curb or quay between the cells right and left of the grid edge p -> q, if any."""
@@ -90,7 +91,7 @@ class Town:
             p, q, right, left = q, p, left, right  # now the lower side is on the right
         a, b = (*p, level(right, *p)), (*q, level(right, *q))
         c, d = (*q, level(left, *q)), (*p, level(left, *p))
-        terrain.extend([(None, [[a, b, c]]), (None, [[a, c, d]])])
+        terrain.setdefault("pavement", []).extend([(None, [[a, b, c]]), (None, [[a, c, d]])])
 
     # ---- buildings ----------------------------------------------------------------------------
 

@@ -42,17 +42,34 @@ def carriageway(streets, value):
     return None
 
 
+def is_lawn(x, y):
+    """The meadow about the town, the bank across the basin, the park."""
+    if not (0.0 < x < SIZE[0] and 34.0 < y < SIZE[1]):
+        return True
+    return 96.0 < x < 166.0 and 218.0 < y < 274.0
+
+
+def is_in_block(x, y):
+    return not any(start < v < end for v, streets in ((x, X_STREETS), (y, Y_STREETS))
+                   for start, end, _ in streets.values())
+
+
 def class_at(x, y):
-    """`outside`, `water`, the name of a road, or `land`."""
+    """`outside`, `water`, the name of a road, `lawn`, `lot` or `pavement`."""
     if not (-MARGIN < x < SIZE[0] + MARGIN and -MARGIN < y < SIZE[1] + MARGIN):
         return "outside"
     if BASIN[0] < x < BASIN[2] and BASIN[1] < y < BASIN[3]:
         return "water"
+    if is_lawn(x, y):
+        return "lawn"
     in_streets_x = 3.0 < x < SIZE[0] - 3.0
     in_streets_y = Y_STREETS["road-quay"][0] + 3.0 < y < SIZE[1] - 3.0
+    road = None
     if in_streets_x and in_streets_y:
-        return carriageway(X_STREETS, x) or carriageway(Y_STREETS, y) or "land"
-    return "land"
+        road = carriageway(X_STREETS, x) or carriageway(Y_STREETS, y)
+    if road:
+        return road
+    return "lot" if y > Y_STREETS["road-quay"][1] and is_in_block(x, y) else "pavement"
 
 
 def subdivided(values, pitch):
@@ -68,7 +85,7 @@ def subdivided(values, pitch):
 def grid_lines():
     """Lines of the terrain grid in x and y: every edge of the layout, and steps between."""
     xs = {-MARGIN, SIZE[0] + MARGIN, BASIN[0], BASIN[2]}
-    ys = {-MARGIN, 0.0, SIZE[1] + MARGIN, BASIN[1], BASIN[3]}
+    ys = {-MARGIN, 0.0, 34.0, SIZE[1] + MARGIN, BASIN[1], BASIN[3]}
     for lines, streets in ((xs, X_STREETS), (ys, Y_STREETS)):
         for start, end, pavement in streets.values():
             lines |= {start, start + pavement, end - pavement, end}
