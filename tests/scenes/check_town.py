@@ -207,7 +207,7 @@ def check_objects(town):
 def check_place(town):
     check(town.data["version"] == "2.0", "CityJSON 2.0")
     check(town.data["metadata"]["referenceSystem"].endswith("/EPSG/0/6680"), "EPSG:6680")
-    # 43.06 N 141.35 E; EPSG's method 9807 gives these on the GRS 1980 ellipsoid.
+    # What PROJ 9.1 gives for 43.06 N 141.35 E; the generator's figures come from the formulas.
     east, north, _ = town.data["transform"]["translate"]
     check(math.dist((east, north), (-73308.302, -104033.316)) < 0.002, "at 43.06 N 141.35 E")
     check(len(town.bytes) < 3_000_000, f"{len(town.bytes)} bytes")
