@@ -1,2 +1,35 @@
 # make demo   install what is missing, build, light a town (CITY=path TIME=... for your own)
 # make test   the same set-up, then every test
+# make build  only build; make check: what to pass before a merge
+#
+# CITY  a scene file: CityJSON, CityJSONSeq, OBJ, any of them gzipped
+# TIME  2026-06-21T09:00+09:00, or without the offset for the solar time of the place
+
+JOBS ?= $(shell nproc)
+ifneq ($(wildcard ../shared/data),)
+export TENKU_DATA ?= $(abspath ../shared/data)
+endif
+
+.PHONY: demo test install build check clean
+
+demo: build
+	build/release/cli/tenku run $(if $(CITY),scenes/examples/any_city.toml --scene "$(CITY)",scenes/examples/demo.toml) $(if $(TIME),--time "$(TIME)") --out out/demo
+
+test: build
+	cmake --preset sanitize
+	cmake --build --preset sanitize -j $(JOBS) --target reader_tests
+	ctest --preset release -j 2
+	ctest --preset sanitize -L reader -j 2
+
+build: install
+	cmake --preset release
+	cmake --build --preset release -j $(JOBS)
+
+install:
+	@.ci/install.sh
+
+check: install
+	.ci/check.sh
+
+clean:
+	rm -rf build out
