@@ -13,6 +13,9 @@ namespace {
 
 constexpr double kPitchPerDistance = 0.125;
 constexpr double kLeastPitch_m = 0.0625;
+constexpr double kRelativeError = 0.1;   // of a value, as far as slices can tell
+constexpr double kWorthKnowing = 0.005;  // of the horizontal sky illuminance
+constexpr int kMostSlices = 64;
 
 /// The point of a triangle closest to `p`.
 ///
@@ -97,8 +100,13 @@ double DirectCache::measure(Vec3 point, Vec3 normal, std::uint64_t key) {
   double lux = 0.0;
   if (source_.sky) {
     SensorSky sky(rays_, source_.sky.get(), point, normal, SampleRandom(seed_, key, 1),
-                  SensorSky::Effort{.first_slices = 8, .checked = false});
-    sky.refine();
+                  SensorSky::Effort{.checked = false});
+    const double floor_lux = kWorthKnowing * source_.sky->horizontal_lux();
+    do {
+      sky.refine();
+    } while (sky.slices() < kMostSlices &&
+             (sky.may_miss_openings() ||
+              std::sqrt(sky.variance()) > kRelativeError * std::max(sky.lux(), floor_lux)));
     lux += sky.lux();
     rays_sent_ += sky.rays_sent();
   }

@@ -13,6 +13,7 @@ namespace {
 constexpr int kCertainBounces = 8;  // after these a path goes on by chance
 constexpr int kMostMirrors = 8;     // in a row
 constexpr int kSunRays = 4;         // of a true value
+constexpr int kTrueSlices = 32;     // and of its sky: not by result, which would bias it
 
 // Student's t over the normal quantile, squared: 15 and 7 degrees of freedom, at 95 %.
 constexpr double kWiden15 = 1.183, kWiden7 = 1.456;
@@ -43,13 +44,13 @@ ReflectedLight::ReflectedLight(const RayVisibility& rays, DirectCache& cache, in
       order_sum_(static_cast<std::size_t>(bounces) + 1) {}
 
 template <class AtVertex>
-void ReflectedLight::trace_path(PathStart start, const AtVertex& at_vertex) {
+void ReflectedLight::trace_path(PathStart start, int last_order, const AtVertex& at_vertex) {
   Rgb weight{1.0, 1.0, 1.0};
   Vec3 origin = origin_, normal = normal_, direction{};
   SampleRandom chance(start.scramble, start.index, 7);
   int order = 1, mirrors = 0;
   bool diffuse = true;
-  while (order <= bounces_) {
+  while (order <= last_order) {
     if (diffuse) {
       const auto dimension = static_cast<unsigned>(2 * (order - 1));
       direction = cosine_direction(normal, sobol_owen(start.index, dimension, start.scramble),
@@ -92,7 +93,7 @@ void ReflectedLight::trace_looked_up(int goal) {
     const auto batch = static_cast<std::size_t>(looked_up_paths_ % kBatches);
     const PathStart start{static_cast<std::uint32_t>(looked_up_paths_ / kBatches),
                           mix_bits(scramble_ + batch)};
-    trace_path(start, [&](const Vertex& v) {
+    trace_path(start, bounces_, [&](const Vertex& v) {
       const double direct = cache_.lux(v.triangle, v.point, v.normal, v.distance_m);
       const Rgb leaving = v.material.emission_lm_m2 + direct * v.material.reflectance;
       const double lux = luminance_of(v.weight * leaving);
@@ -112,12 +113,22 @@ void ReflectedLight::trace_differences(int goal) {
   for (; difference_paths_ < goal; ++difference_paths_) {
     const auto index = static_cast<std::uint32_t>(difference_paths_);
     const PathStart start{index, mix_bits(scramble_ ^ 0x5851f42d4c957f2dU)};
+    // One surface of the path is looked at, the nearer ones more often.
+    SampleRandom chance(start.scramble, index, 9);
+    int order = 1;
+    double probability = 1.0;
+    for (; order < bounces_; ++order) {
+      const bool stop = chance.uniform() < 0.5;
+      probability *= 0.5;
+      if (stop) break;
+    }
     double lux = 0.0;
-    trace_path(start, [&](const Vertex& v) {
-      const std::uint64_t address = mix_bits(start.scramble + index) + static_cast<unsigned>(v.order);
+    trace_path(start, order, [&](const Vertex& v) {
+      if (v.order != order) return;
+      const std::uint64_t address = mix_bits(start.scramble + index);
       const double missed = true_direct(v.point, v.normal, address) -
                             cache_.lux(v.triangle, v.point, v.normal, v.distance_m);
-      lux += missed * luminance_of(v.weight * v.material.reflectance);
+      lux = missed * luminance_of(v.weight * v.material.reflectance) / probability;
     });
     difference_sum_ += lux;
     difference_squares_ += lux * lux;
@@ -132,7 +143,7 @@ double ReflectedLight::true_direct(Vec3 point, Vec3 normal, std::uint64_t addres
   double lux = 0.0;
   if (source.sky) {
     SensorSky sky(rays_, source.sky.get(), point, normal, SampleRandom(scramble_, address, 2),
-                  SensorSky::Effort{.first_slices = 8, .checked = true});
+                  SensorSky::Effort{.first_slices = kTrueSlices, .halving = false});
     sky.refine();
     lux += sky.signed_lux();
     rays_sent_ += sky.rays_sent();

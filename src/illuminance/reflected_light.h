@@ -14,8 +14,8 @@ namespace tenku {
 ///
 /// A path leaves the sensor in proportion to the cosine (Owen-scrambled Sobol) and goes on in the
 /// same way at each surface it meets, where the direct illuminance is looked up in a cache. A few
-/// paths more, drawn apart, measure the truth where they land and take the mean of its difference
-/// from the cache: what the cache gets wrong becomes noise, never bias. Emitting surfaces count
+/// paths more, drawn apart, measure the truth at one of their surfaces and take the mean of its
+/// difference from the cache: what the cache gets wrong becomes noise, never bias. Emitting surfaces count
 /// where paths meet them.
 ///
 /// Error    looked-up paths: variance of the mean of `kBatches` independent scrambles, widened for
@@ -48,7 +48,7 @@ class ReflectedLight {
   struct Vertex;
 
   template <class AtVertex>
-  void trace_path(PathStart start, const AtVertex& at_vertex);
+  void trace_path(PathStart start, int last_order, const AtVertex& at_vertex);
   void trace_looked_up(int goal);
   void trace_differences(int goal);
   double true_direct(Vec3 point, Vec3 normal, std::uint64_t address);

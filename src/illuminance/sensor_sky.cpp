@@ -10,7 +10,6 @@ namespace {
 constexpr int kRareCheck = 4;       // one slice in so many is checked while all goes well
 constexpr int kDenseChecks = 4;     // rays a checked slice, where the checks dominate the error
 constexpr double kPiece = 0.1;      // radians of altitude over which panes count as one angle
-constexpr int kBisections = 16;
 constexpr double kWorthHalving = 0.2;  // of the worst gap's error
 constexpr std::size_t kLookInto = 8;   // one gap in so many is halved in any case
 constexpr double kSmoothShare = 0.05;  // of the correction for the slopes: what is wrong with it
@@ -35,6 +34,10 @@ struct SensorSky::Work {
   }
   /// What checks are drawn in proportion to: skylight, or the view of a uniform sky without one.
   double measure(double from, double to) const { return column ? lux(from, to) : view(from, to); }
+  SkyTable::Column::Row row_reaching(double wanted, double low, double high) const {
+    if (!column) return {low, high};
+    return column->row_reaching(wanted + weighted(column->to(low)), along, up, low, high);
+  }
 };
 
 SensorSky::SensorSky(const RayVisibility& rays, const SkyTable* table, Vec3 position, Vec3 normal,
@@ -51,7 +54,7 @@ void SensorSky::refine() {
     halve_gaps();
   } else {
     double_evenly();
-    resolved_ = is_resolved();
+    resolved_ = effort_.halving && is_resolved();
   }
   summarise();
 }
@@ -80,15 +83,21 @@ void SensorSky::double_evenly() {
 
 void SensorSky::halve_gaps() {
   const std::size_t count = slice_.size();
-  double worst = 0.0;
-  for (std::size_t i = 0; i < count; ++i) worst = std::max(worst, gap_error(i));
+  std::vector<double> error(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double width = width_after(i);
+    const double correction =
+        square(width) / 12.0 * (slopes_at((i + 1) % count).lux - slopes_at(i).lux);
+    error[i] = gap_error(gap_between(at(i), at(i + 1)), width, at(i + 1).lux - at(i).lux, correction);
+  }
+  const double worst = *std::max_element(error.begin(), error.end());
   std::vector<Slice> refined;
   refined.reserve(count + count / 4);
   surprise_variance_ = 0.0;
   ++halvings_;
   for (std::size_t i = 0; i < count; ++i) {
     refined.push_back(slice_[i]);
-    const bool is_worst = gap_error(i) > kWorthHalving * worst;
+    const bool is_worst = error[i] > kWorthHalving * worst;
     const bool is_look = (i + halvings_) % kLookInto == 0;
     if (!is_worst && !is_look) continue;
     const double width = width_after(i);
@@ -131,27 +140,23 @@ double SensorSky::width_after(std::size_t i) const {
   return i + 1 < slice_.size() ? width : width + 2.0 * kPi;
 }
 
-/// Slope of the illuminance at a slice, from the neighbours that no step separates from it.
-double SensorSky::slope_at(std::size_t i, double Slice::*value) const {
+/// Slopes at a slice, from the neighbours that no step separates from it.
+SensorSky::Slopes SensorSky::slopes_at(std::size_t i) const {
   const std::size_t count = slice_.size(), before = (i + count - 1) % count;
   const Slice &here = at(i), &left = at(before), &right = at(i + 1);
-  const bool has_left = gap_between(left, here) != Gap::Step;
-  const bool has_right = gap_between(here, right) != Gap::Step;
   const double wl = width_after(before), wr = width_after(i);
-  const double sl = wl > 0.0 ? (here.*value - left.*value) / wl : 0.0;
-  const double sr = wr > 0.0 ? (right.*value - here.*value) / wr : 0.0;
-  if (has_left && has_right) return (wr * sl + wl * sr) / (wl + wr);  // parabola through three
-  return has_left ? sl : has_right ? sr : 0.0;
+  double to_left = gap_between(left, here) != Gap::Step ? wr / (wl + wr) : 0.0;
+  double to_right = gap_between(here, right) != Gap::Step ? wl / (wl + wr) : 0.0;
+  // A parabola through three slices, or a line through two.
+  if (to_left == 0.0 && to_right > 0.0) to_right = 1.0;
+  if (to_right == 0.0 && to_left > 0.0) to_left = 1.0;
+  return {to_left * (here.lux - left.lux) / wl + to_right * (right.lux - here.lux) / wr,
+          to_left * (here.view - left.view) / wl + to_right * (right.view - here.view) / wr};
 }
 
-double SensorSky::gap_error(std::size_t i) const {
-  const double width = width_after(i);
-  const std::size_t next = (i + 1) % slice_.size();
-  const Gap gap = gap_between(at(i), at(next));
-  if (gap == Gap::Step) return width * std::abs(at(next).lux - at(i).lux) / std::sqrt(12.0);
-  const double correction =
-      square(width) / 12.0 * std::abs(slope_at(next, &Slice::lux) - slope_at(i, &Slice::lux));
-  return gap == Gap::Kink ? correction : kSmoothShare * correction;
+double SensorSky::gap_error(Gap gap, double width, double height, double correction) {
+  if (gap == Gap::Step) return width * std::abs(height) / std::sqrt(12.0);
+  return (gap == Gap::Kink ? 1.0 : kSmoothShare) * std::abs(correction);
 }
 
 SensorSky::Slice SensorSky::make_slice(double azimuth_rad, int checks, double weight) {
@@ -196,17 +201,16 @@ void SensorSky::claim(Work& work) {
 
 void SensorSky::check(const Work& work, int checks, double weight) {
   const auto [low, high] = work.front;
-  const double whole = work.measure(low, high), whole_view = work.view(low, high);
+  const double whole = work.measure(low, high);
   if (!(whole > 0.0)) return;
   double lux = 0.0, view = 0.0;
   for (int k = 0; k < checks; ++k) {
+    // A row of the table in proportion to its light, then any altitude in it alike.
     const double wanted = whole * (k + random_.uniform()) / checks;
-    double a = low, b = high;
-    for (int step = 0; step < kBisections; ++step) {
-      const double middle = 0.5 * (a + b);
-      (work.measure(low, middle) < wanted ? a : b) = middle;
-    }
-    const double altitude = 0.5 * (a + b);
+    const auto [a, b] = work.row_reaching(wanted, low, high);
+    const double altitude = a + (b - a) * random_.uniform();
+    const double chance = work.measure(a, b) / whole;
+    if (!(chance > 0.0)) continue;
     double claimed = 0.0;
     for (const auto& [range, transmittance] : piece_) {
       if (altitude >= range.low && altitude <= range.high) claimed = transmittance;
@@ -215,9 +219,8 @@ void SensorSky::check(const Work& work, int checks, double weight) {
     if (truth > 0.0 && rays_.has_glass()) truth = tracer_.glass_transmission(altitude);
     const double missed = truth - claimed;
     if (missed == 0.0) continue;
-    lux += missed * work.lux(low, high);
-    const double density = work.measure(a, b) / whole;  // of the draw, over the last bracket
-    view += missed * (density > 0.0 ? work.view(a, b) / density : whole_view);
+    lux += missed * work.lux(a, b) / chance;
+    view += missed * work.view(a, b) / chance;
   }
   lux *= weight / checks;
   checks_.lux += lux;
@@ -247,16 +250,22 @@ SensorSky::Sum SensorSky::even_sum() const {
 
 SensorSky::Sum SensorSky::halved_sum() const {
   Sum sum;
-  const auto gap_integral = [&](std::size_t i, std::size_t next, double Slice::*value) {
-    const double width = width_after(i), flat = 0.5 * width * (at(i).*value + at(next).*value);
-    if (gap_between(at(i), at(next)) == Gap::Step) return flat;
-    return flat - square(width) / 12.0 * (slope_at(next, value) - slope_at(i, value));
-  };
+  Slopes before = slopes_at(0);
+  const Slopes first = before;
   for (std::size_t i = 0; i < slice_.size(); ++i) {
-    const std::size_t next = (i + 1) % slice_.size();
-    sum.lux += gap_integral(i, next, &Slice::lux);
-    sum.view += gap_integral(i, next, &Slice::view);
-    sum.variance += square(gap_error(i));
+    const Slopes after = i + 1 < slice_.size() ? slopes_at(i + 1) : first;
+    const Slice &here = at(i), &next = at(i + 1);
+    const double width = width_after(i);
+    sum.lux += 0.5 * width * (here.lux + next.lux);
+    sum.view += 0.5 * width * (here.view + next.view);
+    const Gap gap = gap_between(here, next);
+    const double correction = square(width) / 12.0 * (after.lux - before.lux);
+    if (gap != Gap::Step) {
+      sum.lux -= correction;
+      sum.view -= square(width) / 12.0 * (after.view - before.view);
+    }
+    sum.variance += square(gap_error(gap, width, next.lux - here.lux, correction));
+    before = after;
   }
   sum.variance += surprise_variance_;
   return sum;

@@ -39,6 +39,7 @@ class SensorSky {
   struct Effort {
     int first_slices = kFirstSlices;
     bool checked = true;  ///< without checks the result may be biased
+    bool halving = true;  ///< without it the result is unbiased whatever is too thin to resolve
   };
 
   /// @param table   null for no sky: only the sky view factor is found
@@ -91,11 +92,17 @@ class SensorSky {
     double lux = 0.0, view = 0.0, variance = 0.0;
   };
 
+  struct Slopes {
+    double lux, view;
+  };
+
   static Gap gap_between(const Slice& a, const Slice& b);
   const Slice& at(std::size_t i) const { return slice_[i % slice_.size()]; }
   double width_after(std::size_t i) const;
-  double slope_at(std::size_t i, double Slice::*value) const;
-  double gap_error(std::size_t i) const;
+  Slopes slopes_at(std::size_t i) const;
+  /// Standard error of the integral over a gap: `height` is the rise across it, `correction` what
+  /// the slopes at its ends change.
+  static double gap_error(Gap gap, double width, double height, double correction);
 
   void double_evenly();
   void halve_gaps();

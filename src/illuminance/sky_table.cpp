@@ -90,6 +90,24 @@ SliceMoments SkyTable::Column::to(double altitude_rad) const {
           hermite(t, blend(2), blend(3), blend(6), blend(7))};
 }
 
+SkyTable::Column::Row SkyTable::Column::row_reaching(double wanted, double h, double z,
+                                                     double low_rad, double high_rad) const {
+  const auto at_node = [&](int row) {
+    const std::size_t k = static_cast<std::size_t>(row) * kNodeFloats;
+    const double along = left_[k] + weight_ * (right_[k] - left_[k]);
+    const double up = left_[k + 2] + weight_ * (right_[k + 2] - left_[k + 2]);
+    return h * along + z * up;
+  };
+  const double pitch = table_->row_rad_;
+  int below = static_cast<int>(low_rad / pitch);
+  int above = std::min(static_cast<int>(std::ceil(high_rad / pitch)), table_->rows_);
+  while (above - below > 1) {
+    const int middle = (below + above) / 2;
+    (at_node(middle) < wanted ? below : above) = middle;
+  }
+  return {std::max(low_rad, below * pitch), std::min(high_rad, above * pitch)};
+}
+
 double SkyTable::unobstructed_lux(Vec3 normal) const {
   // Between the columns the table is linear, so a few points a column sum it up well.
   const int slices = 2 * columns_;

@@ -35,6 +35,12 @@ class SkyTable {
   class Column {
    public:
     SliceMoments to(double altitude_rad) const;
+    /// The row of the table in which h * along + z * up, summed from the horizon, passes
+    /// `wanted`, as a range of altitudes. The sum must rise with altitude from `low_rad` on.
+    struct Row {
+      double low, high;
+    };
+    Row row_reaching(double wanted, double h, double z, double low_rad, double high_rad) const;
 
    private:
     friend class SkyTable;
