@@ -37,8 +37,11 @@ struct GeometryChoice {
 
 class CityJsonReader {
  public:
-  CityJsonReader(const std::string& name, const std::string& wanted_lod)
-      : name_(name), wanted_lod_(wanted_lod) {}
+  CityJsonReader(std::string name, const std::string& wanted_lod)
+      : name_(std::move(name)), wanted_lod_(wanted_lod) {}
+
+  /// Where messages say they are, from now on.
+  void set_place(const std::string& name) { name_ = name; }
 
   void read_header(element document, const std::string& format);
   void read_objects(element document);
@@ -63,7 +66,7 @@ class CityJsonReader {
   void append_placed(const GeometryChoice& choice, const CityJsonPlace& place, SurfaceFacts facts);
   std::uint8_t lod_index(const std::string& label);
 
-  const std::string& name_;
+  std::string name_;
   const std::string& wanted_lod_;
   RawScene raw_;
   Vec3 scale_{1, 1, 1}, translate_{};
@@ -162,11 +165,12 @@ void CityJsonReader::read_templates(element document) {
 
 void CityJsonReader::read_vertices(element document) {
   array points;
+  auto& vertices = raw_.scene.vertices;
+  first_vertex_ = vertices.size();
+  vertices_ = 0;
   if (document["vertices"].get(points) != simdjson::SUCCESS) {
     refuse(nowhere(), "there is no list 'vertices'");
   }
-  auto& vertices = raw_.scene.vertices;
-  first_vertex_ = vertices.size();
   for (const element point : points) {
     const Vec3 p = read_point(point, nowhere());
     vertices.push_back({p.x * scale_.x + translate_.x, p.y * scale_.y + translate_.y,
@@ -452,12 +456,12 @@ RawScene read_sequence(std::string_view text, const std::string& name,
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
     const std::string place = name + ", line " + std::to_string(++line_number);
+    reader.set_place(place);
     if (is_blank(line)) continue;
     if (line_number == 1) {
       // The header's templates are used to the end, so it has a parser of its own.
       const element header = parse_or_refuse(header_parser, line, place);
       reader.read_header(header, "CityJSONSeq");
-      reader.read_objects(header);
       continue;
     }
     const element feature = parse_or_refuse(parser, line, place);

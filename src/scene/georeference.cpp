@@ -42,7 +42,10 @@ std::string proj_name(const std::string& text) {
 }
 
 Projection create(PJ_CONTEXT* context, const std::string& text) {
-  Projection crs(proj_create(context, proj_name(text).c_str()));
+  const std::string name = proj_name(text);
+  // Without a colon (`EPSG:1`, a URN), a sign (`+proj`) or a bracket (WKT) PROJ guesses by title.
+  const bool is_formal = name.find_first_of(":+[") != std::string::npos;
+  Projection crs(is_formal ? proj_create(context, name.c_str()) : nullptr);
   if (!crs || proj_is_crs(crs.get()) == 0) {
     throw InputError("'" + text + "' is not a coordinate reference system that PROJ knows; give "
                      "one with --crs EPSG:N");
@@ -153,17 +156,21 @@ Georeference Crs::at(Vec3 p) const {
   const ToDegrees to_degrees(id);
   const double step = 100.0 / metres_per_unit;
   const Degrees here = to_degrees(p.x, p.y);
-  const Line north = geodesic(to_degrees(p.x, p.y - step), to_degrees(p.x, p.y + step));
-  const Line east = geodesic(to_degrees(p.x - step, p.y), to_degrees(p.x + step, p.y));
+  const Line northward = geodesic(to_degrees(p.x, p.y - step), to_degrees(p.x, p.y + step));
+  const Line eastward = geodesic(to_degrees(p.x - step, p.y), to_degrees(p.x + step, p.y));
   Georeference where;
   where.crs = id;
   where.name = name;
   where.origin = {Angle::degrees(here.latitude), Angle::degrees(here.longitude), p.z};
-  const double quarter_error = std::remainder(east.azimuth_deg - 90.0 - north.azimuth_deg, 360.0);
+  const double quarter_error = std::remainder(eastward.azimuth_deg - 90.0 - northward.azimuth_deg, 360.0);
   where.grid_convergence =
-      Angle::degrees(std::remainder(north.azimuth_deg + 0.5 * quarter_error, 360.0));
+      Angle::degrees(std::remainder(northward.azimuth_deg + 0.5 * quarter_error, 360.0));
   where.metres_per_unit = metres_per_unit;
-  where.point_scale = 2.0 * 2.0 * step * metres_per_unit / (north.length_m + east.length_m);
+  where.point_scale = 2.0 * 2.0 * step * metres_per_unit / (northward.length_m + eastward.length_m);
+  if (!(where.point_scale > 0.5 && where.point_scale < 2.0)) {
+    throw InputError("(" + std::to_string(p.x) + ", " + std::to_string(p.y) +
+                     ") is too far from the places for which " + id + " is made");
+  }
   return where;
 }
 

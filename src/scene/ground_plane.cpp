@@ -24,7 +24,7 @@ Vec3 file_up(const Scene& scene) {
 
 double file_height(const Scene& scene, Vec3 local) {
   const Vec3 up = file_up(scene);
-  return dot(scene.frame.to_file(local), up) / length(up);
+  return dot(scene.frame.to_file(local), up) / length(up) + 0.0;
 }
 
 double local_height(const Scene& scene, double height) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <cstdio>
 
 #include "core/error.h"
 #include "scene/cityjson_reader.h"
@@ -39,9 +41,22 @@ RawScene read_raw(const fs::path& path, const ReadOptions& options, Progress& pr
   return read_cityjson(std::move(bytes), path.string(), options.building_lod, progress);
 }
 
-void refuse_empty(const RawScene& raw, const fs::path& path) {
+void refuse_empty(const RawScene& raw, const fs::path& path, const char* which) {
   if (raw.scene.surfaces.size() > 0 && !raw.scene.vertices.empty()) return;
-  throw InputError(path.string() + ": there are no surfaces in it");
+  throw InputError(path.string() + ": there are no surfaces" + which + " in it");
+}
+
+// Sums and products of lengths stay finite below it, and no map, in whatever unit, reaches it.
+constexpr double kLargestCoordinate = 1e12;
+
+void refuse_huge(const RawScene& raw, const fs::path& path) {
+  for (const Vec3 v : raw.scene.vertices) {
+    const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    if (largest <= kLargestCoordinate) continue;
+    char number[32];
+    std::snprintf(number, sizeof number, "%g", largest);
+    throw InputError(path.string() + ": a coordinate of " + number + " is beyond all measure");
+  }
 }
 
 /// A city in OBJ: what no name tells apart is a building.
@@ -83,14 +98,15 @@ Scene read_scene(const fs::path& path, const ReadOptions& options, Progress& pro
   const auto named = options.materials ? read_materials(*options.materials)
                                        : std::map<std::string, Material>{};
   RawScene raw = read_raw(path, options, progress);
-  refuse_empty(raw, path);
+  refuse_empty(raw, path, "");
   count_obj_triangles(raw.scene);
   merge_vertices(raw);
-  if (raw.scene.vertices.empty()) refuse_empty(raw, path);
+  refuse_empty(raw, path, " with vertices");
+  refuse_huge(raw, path);
   place_scene(raw, options);
   mark_buildings(raw);
   repair(raw, progress);
-  refuse_empty(raw, path);
+  refuse_empty(raw, path, " that have an area");
   add_ground(raw, options.ground);
   assign_materials(raw, named);
   raw.scene.findings = raw.findings.take();
