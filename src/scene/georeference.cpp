@@ -1,0 +1,177 @@
+#include "scene/georeference.h"
+
+#include <proj.h>
+
+#include <GeographicLib/Geodesic.hpp>
+#include <cctype>
+#include <cmath>
+#include <vector>
+
+#include "core/error.h"
+#include "core/handle.h"
+
+namespace tenku {
+namespace {
+
+using Context = Handle<PJ_CONTEXT, &proj_context_destroy>;
+using Projection = Handle<PJ, &proj_destroy>;
+
+Context make_context() {
+  Context context(proj_context_create());
+  if (!context) throw ResourceError("PROJ could not be started");
+  proj_log_level(context.get(), PJ_LOG_NONE);
+  return context;
+}
+
+bool all_digits(const std::string& text) {
+  for (const char c : text) {
+    if (std::isdigit(static_cast<unsigned char>(c)) == 0) return false;
+  }
+  return !text.empty();
+}
+
+/// `http://www.opengis.net/def/crs/EPSG/0/6677` as `EPSG:6677`; PROJ reads names and URNs itself.
+std::string proj_name(const std::string& text) {
+  if (all_digits(text)) return "EPSG:" + text;
+  const auto at = text.find("/def/crs/");
+  if (at == std::string::npos) return text;
+  const std::string rest = text.substr(at + 9);
+  const auto slash = rest.find('/'), last = rest.rfind('/');
+  if (slash == std::string::npos || last == slash) return text;
+  return rest.substr(0, slash) + ":" + rest.substr(last + 1);
+}
+
+Projection create(PJ_CONTEXT* context, const std::string& text) {
+  const std::string name = proj_name(text);
+  // Without a colon (`EPSG:1`, a URN), a sign (`+proj`) or a bracket (WKT) PROJ guesses by title.
+  const bool is_formal = name.find_first_of(":+[") != std::string::npos;
+  Projection crs(is_formal ? proj_create(context, name.c_str()) : nullptr);
+  if (!crs || proj_is_crs(crs.get()) == 0) {
+    throw InputError("'" + text + "' is not a coordinate reference system that PROJ knows; give "
+                     "one with --crs EPSG:N");
+  }
+  return crs;
+}
+
+/// The horizontal part of a compound CRS; the CRS itself otherwise.
+Projection horizontal_part(PJ_CONTEXT* context, Projection crs) {
+  const PJ_TYPE type = proj_get_type(crs.get());
+  if (type == PJ_TYPE_COMPOUND_CRS) {
+    return horizontal_part(context, Projection(proj_crs_get_sub_crs(context, crs.get(), 0)));
+  }
+  if (type == PJ_TYPE_BOUND_CRS) {
+    return horizontal_part(context, Projection(proj_get_source_crs(context, crs.get())));
+  }
+  return crs;
+}
+
+double axis_metres(PJ_CONTEXT* context, const PJ* crs) {
+  const Projection system(proj_crs_get_coordinate_system(context, crs));
+  double factor = 1.0;
+  if (system) {
+    proj_cs_get_axis_info(context, system.get(), 0, nullptr, nullptr, nullptr, &factor, nullptr,
+                          nullptr, nullptr);
+  }
+  return factor;
+}
+
+std::string id_of(const PJ* crs, const std::string& otherwise) {
+  const char* authority = proj_get_id_auth_name(crs, 0);
+  const char* code = proj_get_id_code(crs, 0);
+  if (authority == nullptr || code == nullptr) return otherwise;
+  return std::string(authority) + ":" + code;
+}
+
+struct Degrees {
+  double longitude, latitude;
+};
+
+/// From easting and northing to WGS 84.
+class ToDegrees {
+ public:
+  explicit ToDegrees(const std::string& id) : context_(make_context()), id_(id) {
+    const Projection crs = horizontal_part(context_.get(), create(context_.get(), id));
+    const Projection wgs84(proj_create(context_.get(), "EPSG:4326"));
+    const Projection raw(
+        proj_create_crs_to_crs_from_pj(context_.get(), crs.get(), wgs84.get(), nullptr, nullptr));
+    if (raw) transformation_.reset(proj_normalize_for_visualization(context_.get(), raw.get()));
+    if (!transformation_) throw InputError(id + " cannot be turned into longitude and latitude");
+  }
+
+  Degrees operator()(double easting, double northing) const {
+    proj_errno_reset(transformation_.get());
+    const PJ_COORD out = proj_trans(transformation_.get(), PJ_FWD, proj_coord(easting, northing, 0, 0));
+    if (!(std::isfinite(out.xy.x) && std::isfinite(out.xy.y) && std::abs(out.xy.y) <= 90.0)) {
+      throw InputError("(" + std::to_string(easting) + ", " + std::to_string(northing) +
+                       ") is no place in " + id_ + "; is the coordinate reference system right?");
+    }
+    return {out.xy.x, out.xy.y};
+  }
+
+ private:
+  Context context_;
+  std::string id_;
+  Projection transformation_;
+};
+
+struct Line {
+  double azimuth_deg, length_m;
+};
+
+Line geodesic(Degrees from, Degrees to) {
+  double length_m = 0.0, azimuth = 0.0, azimuth_end = 0.0;
+  GeographicLib::Geodesic::WGS84().Inverse(from.latitude, from.longitude, to.latitude,
+                                           to.longitude, length_m, azimuth, azimuth_end);
+  // The azimuth half way, where the point asked for lies.
+  const double turned = std::remainder(azimuth_end - azimuth, 360.0);
+  return {azimuth + 0.5 * turned, length_m};
+}
+
+}  // namespace
+
+Crs Crs::parse(const std::string& text) {
+  const Context context = make_context();
+  const Projection whole = create(context.get(), text);
+  Crs crs;
+  crs.id = id_of(whole.get(), text);
+  crs.name = proj_get_name(whole.get());
+  const char* area = nullptr;
+  double w = 0, s = 0, e = 0, n = 0;
+  if (proj_get_area_of_use(context.get(), whole.get(), &w, &s, &e, &n, &area) != 0 && w > -1000.0) {
+    crs.west = w, crs.south = s, crs.east = e, crs.north = n;
+  }
+  const Projection flat = horizontal_part(context.get(), create(context.get(), text));
+  const PJ_TYPE type = proj_get_type(flat.get());
+  crs.geographic = type == PJ_TYPE_GEOGRAPHIC_2D_CRS || type == PJ_TYPE_GEOGRAPHIC_3D_CRS;
+  if (!crs.geographic && type != PJ_TYPE_PROJECTED_CRS) {
+    throw InputError(crs.id + " (" + crs.name +
+                     ") is neither a map projection nor latitude and longitude; convert the "
+                     "scene to a projected system such as UTM");
+  }
+  if (!crs.geographic) crs.metres_per_unit = axis_metres(context.get(), flat.get());
+  return crs;
+}
+
+Georeference Crs::at(Vec3 p) const {
+  const ToDegrees to_degrees(id);
+  const double step = 100.0 / metres_per_unit;
+  const Degrees here = to_degrees(p.x, p.y);
+  const Line northward = geodesic(to_degrees(p.x, p.y - step), to_degrees(p.x, p.y + step));
+  const Line eastward = geodesic(to_degrees(p.x - step, p.y), to_degrees(p.x + step, p.y));
+  Georeference where;
+  where.crs = id;
+  where.name = name;
+  where.origin = {Angle::degrees(here.latitude), Angle::degrees(here.longitude), p.z};
+  const double quarter_error = std::remainder(eastward.azimuth_deg - 90.0 - northward.azimuth_deg, 360.0);
+  where.grid_convergence =
+      Angle::degrees(std::remainder(northward.azimuth_deg + 0.5 * quarter_error, 360.0));
+  where.metres_per_unit = metres_per_unit;
+  where.point_scale = 2.0 * 2.0 * step * metres_per_unit / (northward.length_m + eastward.length_m);
+  if (!(where.point_scale > 0.5 && where.point_scale < 2.0)) {
+    throw InputError("(" + std::to_string(p.x) + ", " + std::to_string(p.y) +
+                     ") is too far from the places for which " + id + " is made");
+  }
+  return where;
+}
+
+}  // namespace tenku

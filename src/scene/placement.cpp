@@ -1,0 +1,180 @@
+#include "scene/placement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace tenku {
+namespace {
+
+constexpr double kFar_m = 20000.0;        // float has 2 mm at this distance
+constexpr double kHighest_m = 10000.0;    // no ground is higher; heights beyond are offsets
+constexpr double kDegreesBeyond = 2.0;    // tolerance about the area of use of a CRS
+
+Extent extent_of(const std::vector<Vec3>& points) {
+  Extent box{points.front(), points.front()};
+  for (const Vec3 p : points) {
+    box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y), std::min(box.min.z, p.z)};
+    box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y), std::max(box.max.z, p.z)};
+  }
+  return box;
+}
+
+Vec3 rounded(Vec3 p) { return {std::round(p.x), std::round(p.y), std::round(p.z)}; }
+
+/// Between file, grid (easting, northing, height; still in the grid's units) and back.
+struct GridMap {
+  GridAxes axes;
+  double scale;
+
+  Vec3 to_grid(Vec3 file) const {
+    return scale * Vec3{dot(axes.easting, file), dot(axes.northing, file), dot(axes.height, file)} +
+           axes.offset;
+  }
+  Vec3 to_file(Vec3 grid) const {
+    const Vec3 p = (1.0 / scale) * (grid - axes.offset);
+    return p.x * axes.easting + p.y * axes.northing + p.z * axes.height;
+  }
+};
+
+/// Turned clockwise seen from above, then scaled; heights scaled apart.
+FileFrame frame_of(const GridMap& map, Vec3 grid_origin, Angle clockwise, double across,
+                   double upward) {
+  const double c = map.scale * across * std::cos(clockwise.in_radians());
+  const double s = map.scale * across * std::sin(clockwise.in_radians());
+  const GridAxes& a = map.axes;
+  return FileFrame::affine(map.to_file(grid_origin),
+                           {c * a.easting + s * a.northing, -s * a.easting + c * a.northing,
+                            map.scale * upward * a.height});
+}
+
+bool contains(const Crs& crs, double latitude, double longitude) {
+  const bool wraps = crs.west > crs.east;  // across the date line
+  const bool between = wraps ? longitude >= crs.west - kDegreesBeyond ||
+                                   longitude <= crs.east + kDegreesBeyond
+                             : longitude >= crs.west - kDegreesBeyond &&
+                                   longitude <= crs.east + kDegreesBeyond;
+  return between && latitude >= crs.south - kDegreesBeyond && latitude <= crs.north + kDegreesBeyond;
+}
+
+bool is_latitude_first(const Crs& crs, Vec3 centre, RawScene& raw) {
+  const bool first = contains(crs, centre.x, centre.y), second = contains(crs, centre.y, centre.x);
+  if (!first && !second) {
+    throw InputError("(" + std::to_string(centre.x) + ", " + std::to_string(centre.y) +
+                     ") is no place in " + crs.id + " (" + crs.name + ")");
+  }
+  const bool latitude_first = first && !second;
+  raw.findings.add({"degrees", Severity::Note, "", "",
+                    "the coordinates are degrees (" + crs.id + ")",
+                    latitude_first ? "read as latitude, longitude" : "read as longitude, latitude"});
+  return latitude_first;
+}
+
+void place_geographic(RawScene& raw, const Crs& crs, const ReadOptions& options) {
+  if (options.scale != 1.0) throw InputError("--scale makes no sense for coordinates in degrees");
+  const Extent box = raw.scene.extent;
+  Vec3 centre = 0.5 * (box.min + box.max);
+  centre = {1e-6 * std::round(1e6 * centre.x), 1e-6 * std::round(1e6 * centre.y), 0.0};
+  const bool latitude_first = is_latitude_first(crs, centre, raw);
+  const double latitude = latitude_first ? centre.x : centre.y;
+  const double longitude = latitude_first ? centre.y : centre.x;
+  raw.scene.frame = FileFrame::geographic(centre, latitude_first, options.rotate);
+  Georeference where;
+  where.crs = crs.id;
+  where.name = crs.name;
+  where.origin = {Angle::degrees(latitude), Angle::degrees(longitude), 0.0};
+  raw.scene.georeference = where;
+}
+
+Vec3 grid_centre(const RawScene& raw, const GridMap& map) {
+  const Extent& box = raw.scene.extent;
+  Vec3 centre = rounded(map.to_grid(0.5 * (box.min + box.max)));
+  if (std::abs(centre.z) < kHighest_m) centre.z = 0.0;
+  return centre;
+}
+
+void place_projected(RawScene& raw, const Crs& crs, const GridMap& map, Angle rotate) {
+  const Vec3 origin = grid_centre(raw, map);
+  const Georeference where = crs.at(origin);
+  raw.scene.frame =
+      frame_of(map, origin, where.grid_convergence + rotate,
+               where.metres_per_unit / where.point_scale, where.metres_per_unit);
+  raw.scene.georeference = where;
+  const Location& at = where.origin;
+  if (!contains(crs, at.latitude.in_degrees(), at.longitude.in_degrees())) {
+    raw.findings.add({"outside_crs_area", Severity::Warning, "", "",
+                      "the scene lies outside the area for which " + crs.id + " is made",
+                      "check the coordinate reference system; --crs gives another"});
+  }
+}
+
+void place_without_crs(RawScene& raw, const GridMap& map, Angle rotate) {
+  const Extent& box = raw.scene.extent;
+  const Vec3 centre = map.to_grid(0.5 * (box.min + box.max));
+  Vec3 origin{};
+  const bool is_far = std::max(std::abs(centre.x), std::abs(centre.y)) > kFar_m;
+  if (!raw.place && (is_far || std::abs(centre.z) > kFar_m)) origin = grid_centre(raw, map);
+  raw.scene.frame = frame_of(map, origin, rotate, 1.0, 1.0);
+  if (raw.place) {
+    Georeference where;
+    where.origin = *raw.place;
+    raw.scene.georeference = where;
+  }
+}
+
+std::optional<Crs> crs_of(RawScene& raw, const ReadOptions& options) {
+  if (!options.crs.empty()) return Crs::parse(options.crs);
+  if (raw.crs.empty()) return std::nullopt;
+  try {
+    return Crs::parse(raw.crs);
+  } catch (const InputError& error) {
+    raw.findings.add({"unusable_crs", Severity::Warning, "", "", error.what(),
+                      "read as metres, x east, y north, without a place on Earth"});
+    return std::nullopt;
+  }
+}
+
+void place_by_crs(RawScene& raw, const Crs& crs, const GridMap& map, const ReadOptions& options) {
+  try {
+    if (crs.geographic) return place_geographic(raw, crs, options);
+    place_projected(raw, crs, map, options.rotate);
+  } catch (const InputError& error) {
+    if (!options.crs.empty() || options.scale != 1.0) throw;
+    raw.findings.add({"unusable_crs", Severity::Warning, "", "", error.what(),
+                      "read as metres, x east, y north, without a place on Earth"});
+    place_without_crs(raw, map, options.rotate);
+  }
+}
+
+}  // namespace
+
+void place_scene(RawScene& raw, const ReadOptions& options) {
+  Scene& scene = raw.scene;
+  if (!(options.scale > 0.0) || !std::isfinite(options.scale)) {
+    throw InputError("--scale must be a positive number, not " + std::to_string(options.scale));
+  }
+  scene.extent = extent_of(scene.vertices);
+  if (options.up == UpAxis::Y && !raw.axes_are_given) raw.axes = kYUpAxes;
+  if (options.up == UpAxis::Z) raw.axes = GridAxes{};
+  const GridMap map{raw.axes, options.scale};
+  const std::optional<Crs> crs = crs_of(raw, options);
+  if (crs) {
+    place_by_crs(raw, *crs, map, options);
+  } else {
+    place_without_crs(raw, map, options.rotate);
+    if (raw.crs.empty() && scene.format != "OBJ" && !options.site) {
+      raw.findings.add({"missing_crs", Severity::Warning, "", "",
+                        "the file names no coordinate reference system",
+                        "read as metres, x east, y north; give --crs EPSG:N, or --lat and --lon"});
+    }
+  }
+  scene.is_city |= scene.georeference.has_value();
+  if (options.site) {
+    if (!scene.georeference) scene.georeference.emplace();
+    scene.georeference->origin = *options.site;
+  }
+  for (Vec3& v : scene.vertices) v = scene.frame.to_local(v);
+}
+
+}  // namespace tenku

@@ -1,0 +1,118 @@
+#include "scene/read_scene.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+
+#include "core/error.h"
+#include "scene/cityjson_reader.h"
+#include "scene/ground_plane.h"
+#include "scene/input_file.h"
+#include "scene/materials.h"
+#include "scene/obj_reader.h"
+#include "scene/placement.h"
+#include "scene/repair.h"
+#include "scene/text_cursor.h"
+
+namespace tenku {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum class Format { CityJson, Obj };
+
+Format format_of(const fs::path& path) {
+  std::string name = path.filename().string();
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (name.ends_with(".gz")) name.resize(name.size() - 3);
+  if (name.ends_with(".json") || name.ends_with(".jsonl")) return Format::CityJson;
+  if (name.ends_with(".obj")) return Format::Obj;
+  throw InputError(path.string() + ": the format is not known by this name; scenes are .city.json, "
+                   ".city.jsonl or .obj, or one of them with .gz");
+}
+
+RawScene read_raw(const fs::path& path, const ReadOptions& options, Progress& progress) {
+  const Format format = format_of(path);
+  std::string bytes = read_input_file(path);
+  progress.stop_if_cancelled();
+  if (format == Format::Obj) return read_obj(bytes, path, progress);
+  return read_cityjson(std::move(bytes), path.string(), options.building_lod, progress);
+}
+
+void refuse_empty(const RawScene& raw, const fs::path& path, const char* which) {
+  if (raw.scene.surfaces.size() > 0 && !raw.scene.vertices.empty()) return;
+  throw InputError(path.string() + ": there are no surfaces" + which + " in it");
+}
+
+// Sums and products of lengths stay finite below it, and no map, in whatever unit, reaches it.
+constexpr double kLargestCoordinate = 1e12;
+
+void refuse_huge(const RawScene& raw, const fs::path& path) {
+  for (const Vec3 v : raw.scene.vertices) {
+    const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    if (largest <= kLargestCoordinate) continue;
+    char number[32];
+    std::snprintf(number, sizeof number, "%g", largest);
+    throw InputError(path.string() + ": a coordinate of " + number + " is beyond all measure");
+  }
+}
+
+/// A city in OBJ: what no name tells apart is a building.
+void mark_buildings(RawScene& raw) {
+  if (raw.scene.format != "OBJ" || !raw.scene.is_city) return;
+  std::fill(raw.is_building.begin(), raw.is_building.end(), std::uint8_t{1});
+}
+
+void count_obj_triangles(Scene& scene) {
+  if (scene.format != "OBJ") return;
+  const std::size_t rings = scene.surfaces.first_vertex.size() - 1;
+  scene.lod_triangles[""] =
+      scene.surfaces.vertex.size() + 2 * rings - 4 * scene.surfaces.size();
+}
+
+void repair(RawScene& raw, Progress& progress) {
+  tidy_rings(raw);
+  progress.stop_if_cancelled();
+  orient_shells(raw);
+  type_building_surfaces(raw);
+  progress.stop_if_cancelled();
+  drop_flat_surfaces(raw);
+  check_polygons(raw);
+  progress.stop_if_cancelled();
+}
+
+}  // namespace
+
+GroundChoice GroundChoice::parse(const std::string& text) {
+  if (text == "auto") return {Kind::Auto, 0.0};
+  if (text == "none") return {Kind::None, 0.0};
+  const auto height = finite_number(text);
+  if (!height) throw InputError("--ground is 'auto', 'none' or a height, not '" + text + "'");
+  return {Kind::Height, *height};
+}
+
+Scene read_scene(const fs::path& path, const ReadOptions& options, Progress& progress) {
+  progress.begin("reading the scene", 0);
+  const auto named = options.materials ? read_materials(*options.materials)
+                                       : std::map<std::string, Material>{};
+  RawScene raw = read_raw(path, options, progress);
+  refuse_empty(raw, path, "");
+  count_obj_triangles(raw.scene);
+  merge_vertices(raw);
+  refuse_empty(raw, path, " with vertices");
+  refuse_huge(raw, path);
+  place_scene(raw, options);
+  mark_buildings(raw);
+  repair(raw, progress);
+  refuse_empty(raw, path, " that have an area");
+  add_ground(raw, options.ground);
+  assign_materials(raw, named);
+  raw.scene.findings = raw.findings.take();
+  progress.end(std::to_string(raw.scene.objects.size()) + " objects, " +
+               std::to_string(raw.scene.surfaces.size()) + " surfaces");
+  return std::move(raw.scene);
+}
+
+}  // namespace tenku

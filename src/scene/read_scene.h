@@ -1,0 +1,49 @@
+/// From a scene file to a scene: the one door for all formats.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/progress.h"
+#include "core/units.h"
+#include "scene/scene.h"
+#include "site/location.h"
+
+namespace tenku {
+
+/// Horizontal ground under the scene.
+struct GroundChoice {
+  enum class Kind { Auto, None, Height };
+  Kind kind = Kind::Auto;
+  double height = 0.0;  ///< in the coordinates of the file, for `Kind::Height`
+
+  /// @param text  `auto`, `none` or a height
+  /// @throws InputError otherwise
+  static GroundChoice parse(const std::string& text);
+};
+
+enum class UpAxis { ByFormat, Y, Z };
+
+/// How to read what the file does not say itself.
+struct ReadOptions {
+  std::string building_lod;       ///< empty: the highest of each object; or `1`, `2.2`
+  Angle rotate;                   ///< turns the model clockwise, seen from above
+  double scale = 1.0;             ///< metres (or units of the CRS) per unit of the file
+  UpAxis up = UpAxis::ByFormat;
+  std::string crs;                ///< `EPSG:N`, in place of what the file says
+  GroundChoice ground;
+  std::optional<std::filesystem::path> materials;  ///< TOML
+  std::optional<Location> site;   ///< of the local origin, in place of what the file says
+};
+
+/// Reads a scene: CityJSON 1.0 to 2.0 (`.json`), CityJSONSeq (`.jsonl`), Wavefront OBJ with MTL
+/// (`.obj`), each also compressed by gzip.
+///
+/// Flaws that can be repaired or borne are findings of the scene; the rest is refused.
+///
+/// @throws InputError  naming the file and the line or object id: file absent, unreadable, cut off,
+///                     of another format; coordinate not finite; index out of range; no surfaces
+Scene read_scene(const std::filesystem::path& path, const ReadOptions& options, Progress& progress);
+
+}  // namespace tenku

@@ -1,0 +1,94 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "core/error.h"
+#include "tests/scene/scene_files.h"
+
+namespace tenku {
+namespace {
+
+const char* const kHouse =
+    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+    "o house\ng front\nusemtl plaster\nf 1 2 3\ng back\nusemtl wall\nf 1 3 4\n"
+    "o shed\ng front\nusemtl wall\nf 1 2 4\n";
+
+Scene read_with(const std::string& toml) {
+  const TemporaryFolder folder;
+  ReadOptions options;
+  options.materials = folder.write("materials.toml", toml);
+  return read(folder.write("a.obj", kHouse), options);
+}
+
+double reflectance(const Scene& scene, std::size_t surface) {
+  return scene.materials[scene.surfaces.material[surface]].reflectance.r;
+}
+
+std::string refusal(const std::string& toml) {
+  try {
+    read_with(toml);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Materials, DefaultsFollowTheSurfaceType) {
+  const Scene scene = read_with("# none\n");
+  EXPECT_EQ(reflectance(scene, 0), 0.30);  // plaster tells no type
+  EXPECT_EQ(reflectance(scene, 1), 0.35);
+}
+
+TEST(Materials, MostSpecificNameWins) {
+  const std::string by_type = "[wall]\nreflectance = 0.11\n";
+  EXPECT_EQ(reflectance(read_with(by_type), 1), 0.11);
+  const std::string by_group = by_type + "[front]\nreflectance = 0.22\n";
+  EXPECT_EQ(reflectance(read_with(by_group), 0), 0.22);
+  const std::string by_material = by_group + "[plaster]\nreflectance = 0.33\n";
+  EXPECT_EQ(reflectance(read_with(by_material), 0), 0.33);
+  EXPECT_EQ(reflectance(read_with(by_material), 2), 0.11);  // material `wall` before group `front`
+  const std::string by_object = by_material + "[house]\nreflectance = 0.44\n";
+  EXPECT_EQ(reflectance(read_with(by_object), 0), 0.44);
+  EXPECT_EQ(reflectance(read_with(by_object), 1), 0.44);
+  EXPECT_EQ(reflectance(read_with(by_object), 2), 0.11);
+}
+
+TEST(Materials, AllKeysAreRead) {
+  const Scene scene = read_with(
+      "[plaster]\nreflectance = [0.1, 0.2, 0.3]\nmirror = 0.9\nindex = 1.52\n"
+      "emission_lm_m2 = 100\n[wall]\ntransmittance = 0.8\n");
+  const Material& plaster = scene.materials[scene.surfaces.material[0]];
+  EXPECT_EQ(plaster.reflectance, (Rgb{0.1, 0.2, 0.3}));
+  EXPECT_EQ(plaster.mirror, 0.9);
+  EXPECT_EQ(plaster.index, 1.52);
+  EXPECT_EQ(plaster.emission_lm_m2, Rgb::grey(100.0));
+  const Material& pane = scene.materials[scene.surfaces.material[1]];
+  EXPECT_EQ(pane.transmittance, 0.8);
+  EXPECT_EQ(pane.reflectance, Rgb{});  // a clear pane scatters nothing unless it is said
+}
+
+TEST(Materials, ValuesOutOfRangeAreRefusedWithTheirPlace) {
+  EXPECT_NE(refusal("[wall]\nreflectance = 1.2\n").find("line 2: wall.reflectance = 1.2"),
+            std::string::npos);
+  for (const char* toml :
+       {"[wall]\nreflectance = 1.0", "[wall]\nreflectance = nan", "[wall]\nreflectance = -0.1",
+        "[wall]\nreflectance = [0.1, 0.2]", "[wall]\nreflectance = \"white\"",
+        "[wall]\nmirror = 1.1", "[wall]\nindex = 0.9", "[wall]\nindex = inf",
+        "[wall]\ntransmittance = -1", "[wall]\nemission_lm_m2 = -5", "wall = 0.5", "[wall",
+        "[wall]\nindex = 1.5\ntransmittance = 0.8"}) {
+    EXPECT_NE(refusal(toml).find("materials.toml"), std::string::npos) << toml;
+  }
+}
+
+TEST(Materials, UnknownKeyIsRefusedWithASuggestion) {
+  EXPECT_NE(refusal("[wall]\nreflectanse = 0.5\n").find("did you mean 'reflectance'?"),
+            std::string::npos);
+}
+
+TEST(Materials, NameThatNothingBearsIsAFinding) {
+  EXPECT_EQ(count_of(read_with("[plastre]\nreflectance = 0.5\n"), "unused_material"), 1U);
+  EXPECT_EQ(count_of(read_with("[window]\nreflectance = 0.5\n"), "unused_material"), 0U);
+}
+
+}  // namespace
+}  // namespace tenku
