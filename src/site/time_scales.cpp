@@ -116,11 +116,13 @@ TimeScales time_scales(Instant instant, const EarthRotation& rotation) {
     scales.tt = plus_seconds(scales.ut1, delta_t);
     return scales;
   }
-  double tai1 = 0.0, tai2 = 0.0;
-  eraUtctai(instant.day, instant.fraction, &tai1, &tai2);
-  scales.tt = plus_seconds({tai1, tai2}, kTtMinusTai_s);
-  if (!rotation.dut1_s) dut1 = built_in_dut1(date, leap_seconds(instant) + kTtMinusTai_s);
-  scales.ut1 = plus_seconds(clock, dut1);
+  // By way of TAI, for a day with a leap second is longer than its fraction tells.
+  JulianDate tai;
+  eraUtctai(instant.day, instant.fraction, &tai.day, &tai.fraction);
+  const double tai_minus_utc = leap_seconds(instant);
+  scales.tt = plus_seconds(tai, kTtMinusTai_s);
+  if (!rotation.dut1_s) dut1 = built_in_dut1(date, tai_minus_utc + kTtMinusTai_s);
+  scales.ut1 = plus_seconds(tai, dut1 - tai_minus_utc);
   if (rotation.delta_t_s) scales.tt = plus_seconds(scales.ut1, delta_t);
   return scales;
 }
