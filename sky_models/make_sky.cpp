@@ -2,14 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
 #include "core/error.h"
+#include "site/weather_file.h"
 #include "sky_models/cie_general_sky.h"
 #include "sky_models/cie_overcast_sky.h"
 #include "sky_models/hemisphere_integral.h"
+#include "sky_models/image_sky.h"
 #include "sky_models/perez_sky.h"
 #include "sky_models/sky_level.h"
 #include "sky_models/sky_name.h"
@@ -122,6 +123,41 @@ void make_perez(Sky& sky, const SkyRequest& request, Irradiance direct, Irradian
   sky.horizontal_diffuse_lux = target.value();
 }
 
+Irradiance known(const std::optional<Irradiance>& value, const char* what,
+                 const std::string& where) {
+  if (value) return *value;
+  throw InputError(fmt::format("{}: the {} irradiance of this hour is missing", where, what));
+}
+
+void make_weather(Sky& sky, const SkyRequest& request, const std::string& path) {
+  if (!request.time) throw InputError("sky '" + request.model + "' needs the hour: give --time");
+  const WeatherFile weather = read_weather(path);
+  const WeatherHour& hour = weather.at(request.time->instant);
+  const std::string where = fmt::format("{}, line {}", path, hour.line);
+  SkyRequest measured = request;
+  if (!measured.dew_point_c) measured.dew_point_c = hour.dew_point_c;
+  make_perez(sky, measured, known(hour.direct_normal, "direct normal", where),
+             known(hour.diffuse_horizontal, "diffuse horizontal", where));
+}
+
+void make_image(Sky& sky, const SkyRequest& request, const std::string& path) {
+  SkyImage image = read_sky_image(path);
+  sky.diagnostics = image.findings;
+  auto model = std::make_unique<ImageSky>(std::move(image), request.image_rotation,
+                                          Luminance(kRadianceEfficacy_lm_W));
+  const double own = model->horizontal_illuminance().value();
+  if (!(own > 0.0)) throw InputError("sky image '" + path + "' is black above the horizon");
+  if (request.sky_illuminance) {
+    model->scale(request.sky_illuminance->value() / own);
+  } else {
+    sky.diagnostics.push_back({"image_level", Severity::Note, "", path,
+                               "no --sky-illuminance is given",
+                               "pixels were taken as W/m2 sr, with 179 lm/W"});
+  }
+  sky.horizontal_diffuse_lux = model->horizontal_illuminance().value();
+  if (sky.horizontal_diffuse_lux > 0.0) sky.model = std::move(model);
+}
+
 void set_sun(Sky& sky, const SkyRequest& request) {
   if (request.sun) {
     sky.sun.direction = request.sun->direction;
@@ -147,8 +183,8 @@ Sky make_sky(const SkyRequest& request) {
     case SkyKind::Perez:
       make_perez(sky, request, name.direct_normal, name.diffuse_horizontal);
       break;
-    case SkyKind::Weather:
-    case SkyKind::Image: throw InputError("sky '" + request.model + "' is not made yet");
+    case SkyKind::Weather: make_weather(sky, request, name.file); break;
+    case SkyKind::Image: make_image(sky, request, name.file); break;
   }
   set_sun(sky, request);
   sky.description = fmt::format("{}, {:.0f} lx diffuse horizontal, sun {:.0f} lx normal",
