@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kHour_s = 3600.0;
 constexpr double kHalfDay_s = 12.0 * kHour_s;
-constexpr double kScan_s = 900.0;
+constexpr double kScan_s = 1800.0;
 
 /// Altitude over time, about one noon.
 class DayCurve {

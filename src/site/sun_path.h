@@ -33,7 +33,7 @@ struct SunDay {
 /// Rise and set are where the unrefracted topocentric altitude passes `horizon`.
 /// Error    0.01 s of time against the altitude itself; the convention's refraction is good to
 ///          some seconds at middle latitudes and to minutes in the polar regions.
-/// Cost     about 100 positions.
+/// Cost     some 60 positions.
 SunDay sun_day(const Location& site, Instant around, const SunOptions& options = {},
                Angle horizon = kRiseAltitude);
 

@@ -73,23 +73,22 @@ struct Motion {
 };
 
 struct Ephemeris {
-  Motion earth;
-  Vec3 sun;  // barycentric
+  Motion earth, sun;  // barycentric
 };
 
 Ephemeris ephemeris_at(JulianDate tt) {
-  double heliocentric[2][3], barycentric[2][3];
-  eraEpv00(tt.day, tt.fraction, heliocentric, barycentric);  // its status only warns outside 1900-2100
-  return {{vec(barycentric[0]), vec(barycentric[1])}, vec(barycentric[0]) - vec(heliocentric[0])};
+  double from_sun[2][3], from_barycentre[2][3];
+  eraEpv00(tt.day, tt.fraction, from_sun, from_barycentre);  // its status only warns of the year
+  const Motion earth{vec(from_barycentre[0]), vec(from_barycentre[1])};
+  return {earth, {earth.position - vec(from_sun[0]), earth.velocity - vec(from_sun[1])}};
 }
 
-/// Unit vector to where the sun was when its light left, from an observer who stands still.
-Vec3 to_sun(const Motion& observer, JulianDate tt) {
+/// Vector (au) to where the sun was when its light left, from an observer who stands still.
+/// In eight minutes the sun moves 7 km about the barycentre, on what is then a straight line.
+Vec3 to_sun(const Motion& observer, const Motion& sun) {
   constexpr double kLightTime_day_au = ERFA_AULT / ERFA_DAYSEC;
-  Vec3 path = ephemeris_at(tt).sun - observer.position;
-  path = ephemeris_at({tt.day, tt.fraction - kLightTime_day_au * length(path)}).sun -
-         observer.position;
-  return path;
+  const Vec3 path = sun.position - observer.position;
+  return path - kLightTime_day_au * length(path) * sun.velocity;
 }
 
 /// The same for one who moves.
@@ -111,9 +110,9 @@ Motion at_site(const Motion& earth, const Site& site, const Orientation& orienta
 
 double wrapped_degrees(double degrees) { return std::remainder(degrees, 360.0); }
 
-void set_geocentric(Sun& sun, const Motion& earth, const TimeScales& t, const Orientation& o) {
-  const Vec3 path = to_sun(earth, t.tt);
-  const Vec3 apparent = rotated(o.to_date, aberrated(path, earth));
+void set_geocentric(Sun& sun, const Ephemeris& bodies, const TimeScales& t, const Orientation& o) {
+  const Vec3 path = to_sun(bodies.earth, bodies.sun);
+  const Vec3 apparent = rotated(o.to_date, aberrated(path, bodies.earth));
   const double right_ascension = std::atan2(apparent.y, apparent.x);
   sun.right_ascension =
       Angle::radians(right_ascension < 0.0 ? right_ascension + 2.0 * kPi : right_ascension);
@@ -172,14 +171,14 @@ Sun sun_at(const Location& location, Instant instant, const SunOptions& options)
   const TimeScales t = time_scales(instant, options.rotation);
   const Orientation orientation = orientation_at(t);
   const Site site = earth_fixed(location);
-  const Motion earth = ephemeris_at(t.tt).earth;
-  const Motion observer = at_site(earth, site, orientation);
+  const Ephemeris bodies = ephemeris_at(t.tt);
+  const Motion observer = at_site(bodies.earth, site, orientation);
 
   Sun sun;
-  set_geocentric(sun, earth, t, orientation);
+  set_geocentric(sun, bodies, t, orientation);
   sun.hour_angle = Angle::degrees(
       wrapped_degrees(sun.hour_angle.in_degrees() + location.longitude.in_degrees()));
-  const Vec3 path = to_sun(observer, t.tt);
+  const Vec3 path = to_sun(observer, bodies.sun);
   const Vec3 d = rotated(orientation.to_earth, aberrated(path, observer));
   sun.direction = normalized({dot(d, site.east), dot(d, site.north), dot(d, site.up)});
   sun.altitude = altitude_of(sun.direction);

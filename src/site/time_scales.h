@@ -30,12 +30,13 @@ TimeScales time_scales(Instant instant, const EarthRotation& rotation = {});
 /// TT - UT1 in seconds at a Julian date.
 ///
 /// Source   1950-2025: yearly values of The Astronomical Almanac, section K (IERS observations),
-///          interpolated; before: the polynomials of F. Espenak and J. Meeus, "Five Millennium Canon of
-///          Solar Eclipses", NASA/TP-2006-214141, section 2.7, moved to meet the table at 1950; after: the last leap second known to ERFA is
-///          kept, and UT1 taken as UTC.
+///          interpolated; before: the polynomials of F. Espenak and J. Meeus, "Five Millennium
+///          Canon of Solar Eclipses", NASA/TP-2006-214141, section 2.7; after: the last leap second
+///          known to ERFA is kept, and UT1 taken as UTC.
 /// Valid    years 1600 to 2400.
-/// Error    0.1 s in 1956-2025, 0.4 s in 1950-1956; UT1 within 0.9 s of UTC in years ahead as
-///          long as leap seconds are kept.
+/// Error    0.1 s in 1973-2022 and 0.2 s to 2025, against an independent fit; 0.7 s in 1950-1972,
+///          where the fits themselves differ. In years ahead UT1 is within 0.9 s of UTC as long as
+///          leap seconds are kept. A second is 0.004 degrees of the sun's hour angle.
 double delta_t_seconds(double julian_date);
 
 }  // namespace tenku
