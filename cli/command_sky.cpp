@@ -1,0 +1,153 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iterator>
+
+#include "cli/command.h"
+#include "cli/partition_options.h"
+#include "cli/sky_options.h"
+#include "core/atomic_file.h"
+#include "core/csv.h"
+#include "core/error.h"
+
+namespace tenku {
+namespace {
+
+struct SkyCommandOptions {
+  SiteOptions site;
+  SkyOptions sky;
+  PartitionOptions partition;
+  std::string directions, out;
+};
+
+struct DirectionRow {
+  std::string azimuth, altitude;  // as written
+  Vec3 direction;
+};
+
+DirectionRow read_direction(const CsvTable& csv, std::size_t i) {
+  const double azimuth = csv.number(i, "azimuth_deg"), altitude = csv.number(i, "altitude_deg");
+  if (!(altitude >= -90.0 && altitude <= 90.0)) {
+    throw InputError(
+        fmt::format("{}: altitude {} degrees is not in -90..90", csv.where(i), altitude));
+  }
+  return {csv.text(i, "azimuth_deg"), csv.text(i, "altitude_deg"),
+          direction_from(Angle::degrees(azimuth), Angle::degrees(altitude))};
+}
+
+std::vector<DirectionRow> read_directions(const std::string& path) {
+  const CsvTable csv(read_whole_file(path), path == "-" ? "standard input" : path);
+  csv.require("azimuth_deg");
+  csv.require("altitude_deg");
+  std::vector<DirectionRow> rows;
+  for (std::size_t i = 0; i < csv.size(); ++i) rows.push_back(read_direction(csv, i));
+  return rows;
+}
+
+std::string luminance_csv(const Sky& sky, const std::vector<DirectionRow>& rows) {
+  std::string text = "azimuth_deg,altitude_deg,luminance_cd_m2\n";
+  for (const DirectionRow& row : rows) {
+    fmt::format_to(std::back_inserter(text), "{},{},{}\n", row.azimuth, row.altitude,
+                   sky.luminance(row.direction).value());
+  }
+  return text;
+}
+
+std::string element_csv(const SkyPartition& partition) {
+  std::string text =
+      "azimuth_deg,altitude_deg,luminance_cd_m2,solid_angle_sr,azimuth_from_deg,azimuth_to_deg,"
+      "altitude_from_deg,altitude_to_deg\n";
+  const auto degrees = [](double radians) { return Angle::radians(radians).in_degrees(); };
+  for (const SkyElement& e : partition.elements) {
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{}\n",
+                   azimuth_of(e.direction).in_degrees(), altitude_of(e.direction).in_degrees(),
+                   e.luminance.value(), e.solid_angle, degrees(e.cell.azimuth_from),
+                   degrees(e.cell.azimuth_to), degrees(std::asin(e.cell.sine_from)),
+                   degrees(std::asin(std::min(1.0, e.cell.sine_to))));
+  }
+  return text;
+}
+
+std::string json_text(const std::string& s) {
+  std::string quoted = "\"";
+  for (const char c : s) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    if (static_cast<unsigned char>(c) < 0x20) {
+      quoted += fmt::format("\\u{:04x}", static_cast<int>(c));
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + "\"";
+}
+
+std::string json_of(const Sky& sky, const SkyPartition& partition) {
+  std::string findings;
+  for (const Finding& f : sky.diagnostics) {
+    findings += fmt::format(
+        "{}{{\"code\":{},\"severity\":\"{}\",\"object\":{},\"where\":{},\"what\":{},\"repair\":{},"
+        "\"count\":{}}}",
+        findings.empty() ? "" : ",", json_text(f.code), name_of(f.severity), json_text(f.object),
+        json_text(f.where), json_text(f.what), json_text(f.repair), f.count);
+  }
+  return fmt::format(
+      "{{\"zenith_luminance_cd_m2\":{},\"horizontal_diffuse_lux\":{},\"elements\":{},"
+      "\"diagnostics\":[{}],\"sun_normal_lux\":{},\"sun_azimuth_deg\":{},\"sun_altitude_deg\":{},"
+      "\"standard_error\":{},\"description\":{}}}",
+      sky.luminance(kZenith).value(), sky.horizontal_diffuse_lux, partition.elements.size(),
+      findings, sky.sun.normal_illuminance.value(), azimuth_of(sky.sun.direction).in_degrees(),
+      altitude_of(sky.sun.direction).in_degrees(), partition.standard_error,
+      json_text(sky.description));
+}
+
+void write_output(const SkyCommandOptions& o, const Sky& sky, const SkyPartition& partition) {
+  if (!o.directions.empty()) {
+    return write_whole_file(o.out, luminance_csv(sky, read_directions(o.directions)));
+  }
+  const std::string extension = std::filesystem::path(o.out).extension().string();
+  if (o.out == "-" || extension == ".csv") {
+    return write_whole_file(o.out, element_csv(partition));
+  }
+  throw InputError(fmt::format("--out '{}': the ending is not .csv", o.out));
+}
+
+void check_output(const SkyCommandOptions& o, const CommonOptions& options) {
+  if (o.out.empty() && !options.json) {
+    throw InputError("nothing to do: give --out OUT.csv, or --json");
+  }
+  if (o.out.empty() && !o.directions.empty()) throw InputError("--directions needs --out OUT.csv");
+}
+
+int run_sky(const SkyCommandOptions& o, const CommandContext& context) {
+  check_output(o, context.options);
+  const Sky sky = resolve_sky(o.site, o.sky);
+  const PartitionRequest request = resolve_partition(o.partition);
+  const SkyPartition partition = sky.model ? partition_sky(*sky.model, request) : SkyPartition{};
+  if (!o.out.empty()) write_output(o, sky, partition);
+  say(context.options, fmt::format("{}; zenith {:.0f} cd/m2; {}", sky.description,
+                                   sky.luminance(kZenith).value(),
+                                   sky.model ? partition.description : "no elements"));
+  for (const Finding& f : sky.diagnostics) {
+    say(context.options, fmt::format("{}: {}; {}", name_of(f.severity), f.what, f.repair));
+  }
+  if (context.options.json) fmt::print("{}\n", json_of(sky, partition));
+  return kDone;
+}
+
+}  // namespace
+
+CommandBody make_sky_command(CLI::App& app) {
+  auto options = std::make_shared<SkyCommandOptions>();
+  add_site_options(app, options->site);
+  add_sky_options(app, options->sky);
+  add_partition_options(app, options->partition);
+  app.add_option("--directions", options->directions,
+                 "CSV table of azimuth_deg,altitude_deg to give the luminance of");
+  app.add_option("--out", options->out,
+                 "CSV of luminances, or without --directions of the sky's elements; - for "
+                 "standard output");
+  return [options](const CommandContext& context) { return run_sky(*options, context); };
+}
+
+}  // namespace tenku

@@ -1,0 +1,29 @@
+#include "cli/partition_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "core/error.h"
+
+namespace tenku {
+
+void add_partition_options(CLI::App& app, PartitionOptions& o) {
+  app.add_option("--partition", o.partition,
+                 "adaptive (default), energy, uniform, tregenza, reinhart:2 .. reinhart:6");
+  app.add_option("--elements", o.elements, "number of sky elements");
+  app.add_option("--energy-threshold", o.energy_threshold_lux,
+                 "divide until luminance times solid angle of every element is below, lm/m2");
+}
+
+PartitionRequest resolve_partition(const PartitionOptions& o) {
+  PartitionRequest request = parse_partition(o.partition);
+  if (o.elements) {
+    if (*o.elements < 1) throw InputError(fmt::format("--elements {} is below 1", *o.elements));
+    request.elements = static_cast<std::size_t>(*o.elements);
+  }
+  request.energy_threshold_lux = o.energy_threshold_lux;
+  return request;
+}
+
+}  // namespace tenku
