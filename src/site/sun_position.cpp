@@ -20,7 +20,7 @@ constexpr double kSemidiameter_deg = 0.26667;      // Reda and Andreas, section 
 constexpr double kHorizonRefraction_deg = 0.5667;  // likewise
 
 struct Site {
-  Vec3 position_m;      // from the centre of the Earth, in the Earth-fixed frame
+  Vec3 position_m;  // from the centre of the Earth, in the Earth-fixed frame
   Vec3 east, north, up;
 };
 

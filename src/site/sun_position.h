@@ -35,15 +35,15 @@ struct SunOptions {
 /// Frame    directions and angles: x east, y north, z up by the normal of the ellipsoid;
 ///          unrefracted unless named apparent.
 struct Sun {
-  Vec3 direction;           ///< unit, to the centre, without refraction
-  Vec3 apparent_direction;  ///< unit, as the eye sees it
-  Angle altitude;           ///< without refraction
-  Angle apparent_altitude;  ///< with it
-  Angle azimuth;            ///< clockwise from true north
-  Angle right_ascension;    ///< apparent, geocentric, true equator and equinox of date
-  Angle declination;        ///< likewise
-  double distance_au = 1.0;  ///< from the centre of the Earth
-  Angle angular_radius;      ///< as seen from the site
+  Vec3 direction;                     ///< unit, to the centre, without refraction
+  Vec3 apparent_direction;            ///< unit, as the eye sees it
+  Angle altitude;                     ///< without refraction
+  Angle apparent_altitude;            ///< with it
+  Angle azimuth;                      ///< clockwise from true north
+  Angle right_ascension;              ///< apparent, geocentric, true equator and equinox of date
+  Angle declination;                  ///< likewise
+  double distance_au = 1.0;           ///< from the centre of the Earth
+  Angle angular_radius;               ///< as seen from the site
   double equation_of_time_min = 0.0;  ///< apparent less mean solar time
   Angle hour_angle;                   ///< apparent, geocentric, west positive, -180 to 180 degrees
 };
@@ -61,7 +61,8 @@ Sun sun_at(const Location& site, Instant instant, const SunOptions& options = {}
 
 /// Rise of the sun's altitude by refraction.
 ///
-/// Source   I. Reda and A. Andreas, NREL/TP-560-34302 (2008), equation 42, after Meeus 1998; zero for a sun whose
+/// Source   I. Reda and A. Andreas, NREL/TP-560-34302 (2008), equation 42, after Meeus 1998; zero
+/// for a sun whose
 ///          disc is wholly below the horizon, as there.
 /// Valid    1e-4 degrees against ray tracing above 15 degrees, some 0.01 degrees at the horizon.
 /// @param altitude  without refraction
