@@ -23,11 +23,18 @@ struct Air {
 /// Valid    to 11 km; the height is clamped to -1 .. 11 km.
 Air standard_air(double elevation_m);
 
+/// How the position of the sun is found.
+enum class SunAlgorithm {
+  Precise,  ///< the one described at `sun_at`
+  Nrel,     ///< the NREL solar position algorithm, `nrel_sun.h`
+};
+
 /// Choices in the position of the sun; each has a built-in answer.
 struct SunOptions {
   bool refraction = true;
   std::optional<Air> air;  ///< default: `standard_air` of the height
   EarthRotation rotation;
+  SunAlgorithm algorithm = SunAlgorithm::Precise;
 };
 
 /// The sun as seen from a site.
@@ -67,6 +74,9 @@ Sun sun_at(const Location& site, Instant instant, const SunOptions& options = {}
 /// Valid    1e-4 degrees against ray tracing above 15 degrees, some 0.01 degrees at the horizon.
 /// @param altitude  without refraction
 Angle refraction(Angle altitude, const Air& air);
+
+/// @throws InputError if pressure or temperature are out of range or no numbers
+void check_air(const Air& air);
 
 /// Refuses a latitude, longitude or elevation out of range or not finite.
 /// Longitudes from -180 to 360 degrees are understood; elevations from -1000 to 100000 m.

@@ -82,6 +82,18 @@ TEST(SunCommand, DayHasRiseNoonAndSetAndThePolesAnswer) {
   EXPECT_EQ(polar_day["day"], "polar_day");
 }
 
+// NREL/TP-560-34302, appendix A.5.
+TEST(SunCommand, NrelAlgorithmPrintsTheReportsExample) {
+  const ProgramRun run = run_tenku(
+      "sun --algorithm nrel --lat 39.742476 --lon -105.1786 --elevation 1830.14 --pressure 820 "
+      "--temperature 11 --time 2003-10-17T12:30:30-07:00 --delta-t 67 --dut1 0 --json --quiet",
+      test_folder());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const json sun = json::parse(run.out);
+  EXPECT_NEAR(sun["azimuth_deg"].get<double>(), 194.340241, 1e-6);
+  EXPECT_NEAR(90.0 - sun["apparent_altitude_deg"].get<double>(), 50.111622, 1e-6);
+}
+
 TEST(SunCommand, WrongInputIsExitTwoAndLeavesNothing) {
   const auto folder = test_folder();
   write(folder / "bad.csv",
