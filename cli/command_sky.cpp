@@ -125,9 +125,9 @@ int run_sky(const SkyCommandOptions& o, const CommandContext& context) {
   const PartitionRequest request = resolve_partition(o.partition);
   const SkyPartition partition = sky.model ? partition_sky(*sky.model, request) : SkyPartition{};
   if (!o.out.empty()) write_output(o, sky, partition);
-  say(context.options, fmt::format("{}; zenith {:.0f} cd/m2; {}", sky.description,
-                                   sky.luminance(kZenith).value(),
-                                   sky.model ? partition.description : "no elements"));
+  say(context.options,
+      fmt::format("{}; zenith {:.0f} cd/m2; {}", sky.description, sky.luminance(kZenith).value(),
+                  sky.model ? partition.description : "no elements"));
   for (const Finding& f : sky.diagnostics) {
     say(context.options, fmt::format("{}: {}; {}", name_of(f.severity), f.what, f.repair));
   }

@@ -15,12 +15,19 @@ namespace {
 struct SunCommandOptions {
   SiteOptions site;
   std::string times, out;
+  std::string algorithm = "precise";
   bool day = false;
   std::optional<double> delta_t_s, dut1_s;
 };
 
 std::string json_number(const std::optional<CivilTime>& time) {
   return time ? fmt::format("\"{}\"", iso_local(*time)) : "null";
+}
+
+SunAlgorithm algorithm_named(const std::string& name) {
+  if (name == "precise") return SunAlgorithm::Precise;
+  if (name == "nrel") return SunAlgorithm::Nrel;
+  throw InputError(fmt::format("--algorithm '{}' is unknown; there are precise and nrel", name));
 }
 
 SunRow single_row(const SunCommandOptions& o) {
@@ -32,6 +39,7 @@ SunRow single_row(const SunCommandOptions& o) {
   row.echo = fmt::format("{},{},{},{}", iso_local(*time), *o.site.latitude_deg,
                          *o.site.longitude_deg, site->elevation_m);
   row.options.rotation = {o.delta_t_s, o.dut1_s};
+  row.options.algorithm = algorithm_named(o.algorithm);
   return row;
 }
 
@@ -94,7 +102,8 @@ std::string json_of(const Sun& sun, const SunRow& row) {
 int run_table(const SunCommandOptions& o, const CommandContext& context) {
   if (o.out.empty()) throw InputError("--times needs --out OUT.csv (or - for standard output)");
   if (o.day) throw InputError("--day is for a single --time, not for --times");
-  const SunTable table = read_sun_table(o.times);
+  SunTable table = read_sun_table(o.times);
+  for (SunRow& row : table.rows) row.options.algorithm = algorithm_named(o.algorithm);
   write_whole_file(o.out, sun_table_csv(table));
   say(context.options, fmt::format("{} sun positions", table.rows.size()));
   if (context.options.json) fmt::print("{{\"rows\":{}}}\n", table.rows.size());
@@ -126,6 +135,8 @@ CommandBody make_sun_command(CLI::App& app) {
                  "[,delta_t_s,dut1_s]");
   app.add_option("--out", options->out, "CSV table to write; - for standard output");
   app.add_flag("--day", options->day, "also rise, set and solar noon of the day");
+  app.add_option("--algorithm", options->algorithm,
+                 "precise (default), or nrel: the NREL solar position algorithm, to compare with");
   app.add_option("--delta-t", options->delta_t_s, "TT - UT1, seconds (default: built in)");
   app.add_option("--dut1", options->dut1_s, "UT1 - UTC, seconds (default: built in)");
   return [options](const CommandContext& context) {

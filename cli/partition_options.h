@@ -18,9 +18,7 @@ struct PartitionOptions {
   std::optional<long> elements;
   std::optional<double> energy_threshold_lux;
 
-  bool is_default() const {
-    return partition == "adaptive" && !elements && !energy_threshold_lux;
-  }
+  bool is_default() const { return partition == "adaptive" && !elements && !energy_threshold_lux; }
 };
 
 void add_partition_options(CLI::App& app, PartitionOptions& options);

@@ -85,8 +85,8 @@ ElementMoments element_moments(const SkyModel& sky, const SkyCell& cell) {
     const int columns = pieces(turn * std::cos(altitude), longest);
     const double width = turn / columns;
     for (int c = 0; c < columns; ++c) {
-      sum += adaptive_moments(sky, {cell.azimuth_from + c * width, width, altitude, height},
-                              halvings);
+      sum +=
+          adaptive_moments(sky, {cell.azimuth_from + c * width, width, altitude, height}, halvings);
     }
   }
   sum.solid_angle = cell.solid_angle();  // exactly
@@ -108,8 +108,8 @@ double largest_eigenvalue(const Symmetric3& a) {
   const double off = a[3] * a[3] + a[4] * a[4] + a[5] * a[5];
   const double p = std::sqrt((x * x + y * y + z * z + 2.0 * off) / 6.0);
   if (!(p > 0.0)) return std::max(0.0, mean);
-  const double determinant = x * (y * z - a[5] * a[5]) - a[3] * (a[3] * z - a[5] * a[4]) +
-                             a[4] * (a[3] * a[5] - y * a[4]);
+  const double determinant =
+      x * (y * z - a[5] * a[5]) - a[3] * (a[3] * z - a[5] * a[4]) + a[4] * (a[3] * a[5] - y * a[4]);
   const double r = std::clamp(0.5 * determinant / (p * p * p), -1.0, 1.0);
   return std::max(0.0, mean + 2.0 * p * std::cos(std::acos(r) / 3.0));
 }

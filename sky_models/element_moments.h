@@ -11,9 +11,9 @@ namespace tenku {
 /// Moments of the field F(d) = L(d) d over a cell: enough for its light on any plane that sees it
 /// whole, and for the error of a single sample of it.
 struct ElementMoments {
-  double solid_angle = 0.0;      ///< sr
-  double luminance = 0.0;        ///< integral of L, cd/m2 sr
-  Vec3 vector;                   ///< integral of L d, lx
+  double solid_angle = 0.0;        ///< sr
+  double luminance = 0.0;          ///< integral of L, cd/m2 sr
+  Vec3 vector;                     ///< integral of L d, lx
   std::array<double, 6> square{};  ///< integral of L^2 d d^T: xx, yy, zz, xy, xz, yz
 
   ElementMoments& operator+=(const ElementMoments& other);

@@ -19,8 +19,7 @@ struct PolarFrame {
   Vec3 axis, up, side;
 
   Vec3 direction(double chi, double psi) const {
-    return std::cos(chi) * axis +
-           std::sin(chi) * (std::cos(psi) * up + std::sin(psi) * side);
+    return std::cos(chi) * axis + std::sin(chi) * (std::cos(psi) * up + std::sin(psi) * side);
   }
 };
 
@@ -73,8 +72,9 @@ double hemisphere_integral(const std::function<double(Vec3)>& f, Vec3 peak, Vec3
   const PolarFrame frame = polar_frame(peak);
   const double altitude = altitude_of(peak).in_radians();
   const double to_kink = std::asin(std::clamp(dot(peak, kink), -1.0, 1.0));
-  std::array<double, 8> ends{0.0, altitude, kPi / 2.0 - altitude, kPi / 2.0, kPi - altitude,
-                             0.3, std::abs(to_kink), kPi - std::abs(to_kink)};
+  std::array<double, 8> ends{
+      0.0, altitude,          kPi / 2.0 - altitude,   kPi / 2.0, kPi - altitude,
+      0.3, std::abs(to_kink), kPi - std::abs(to_kink)};
   std::sort(ends.begin(), ends.end());
   double sum = 0.0;
   for (std::size_t k = 0; k + 1 < ends.size(); ++k) {

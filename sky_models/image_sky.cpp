@@ -32,20 +32,23 @@ RawImage read_raw(const std::string& path) {
   const OIIO::ImageSpec& spec = input->spec();
   constexpr int kLargestSide = 65536;
   if (spec.width < 8 || spec.height < 4 || spec.width > kLargestSide || spec.nchannels < 1) {
-    throw InputError(fmt::format("sky image '{}' is {} x {} with {} channels: not an image of a sky",
-                                 path, spec.width, spec.height, spec.nchannels));
+    throw InputError(
+        fmt::format("sky image '{}' is {} x {} with {} channels: not an image of a sky", path,
+                    spec.width, spec.height, spec.nchannels));
   }
   if (spec.width != 2 * spec.height) {
     throw InputError(fmt::format(
         "sky image '{}' is {} x {}: a latitude-longitude image is twice as wide as high", path,
         spec.width, spec.height));
   }
-  RawImage raw{static_cast<std::size_t>(spec.width), static_cast<std::size_t>(spec.height),
-               static_cast<std::size_t>(spec.nchannels), !spec.format.is_floating_point(), {}};
+  RawImage raw{static_cast<std::size_t>(spec.width),
+               static_cast<std::size_t>(spec.height),
+               static_cast<std::size_t>(spec.nchannels),
+               !spec.format.is_floating_point(),
+               {}};
   raw.values.resize(raw.width * raw.height * raw.channels);
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, raw.values.data())) {
-    throw InputError(
-        fmt::format("sky image '{}' cannot be read: {}", path, input->geterror()));
+    throw InputError(fmt::format("sky image '{}' cannot be read: {}", path, input->geterror()));
   }
   return raw;
 }
@@ -106,8 +109,7 @@ Rgb ImageSky::colour(Vec3 direction) const {
   if (direction.z < 0.0) return {};
   const double azimuth = (azimuth_of(direction) - rotation_).in_radians();
   const double from_zenith = kPi / 2.0 - altitude_of(direction).in_radians();
-  const double column =
-      (0.5 + azimuth / (2.0 * kPi)) * static_cast<double>(image_.width) - 0.5;
+  const double column = (0.5 + azimuth / (2.0 * kPi)) * static_cast<double>(image_.width) - 0.5;
   const double row = from_zenith / kPi * static_cast<double>(image_.height) - 0.5;
   return level_.value() * at(row, column);
 }

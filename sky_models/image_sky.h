@@ -17,8 +17,8 @@ namespace tenku {
 ///          someone standing under it; the left and right edges look south.
 struct SkyImage {
   std::size_t width = 0, height = 0;
-  std::vector<Rgb> pixels;         ///< linear Rec. 709
-  std::vector<Finding> findings;   ///< negative or non-finite pixels, set to zero
+  std::vector<Rgb> pixels;        ///< linear Rec. 709
+  std::vector<Finding> findings;  ///< negative or non-finite pixels, set to zero
 };
 
 /// Reads an HDR, EXR or other image that OpenImageIO knows; 8- and 16-bit images are taken as
@@ -58,7 +58,8 @@ class ImageSky : public SkyModel {
 
 /// Luminous efficacy by which images in W/m2 sr become luminance.
 ///
-/// Source   G. Ward Larson and R. Shakespeare, "Rendering with Radiance", 1998: 179 lm/W of equal-energy white.
+/// Source   G. Ward Larson and R. Shakespeare, "Rendering with Radiance", 1998: 179 lm/W of
+/// equal-energy white.
 inline constexpr double kRadianceEfficacy_lm_W = 179.0;
 
 }  // namespace tenku

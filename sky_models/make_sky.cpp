@@ -32,9 +32,7 @@ void check(const SkyRequest& request) {
   }
 }
 
-bool sun_is_up(const SkyRequest& request) {
-  return request.sun && request.sun->direction.z > 0.0;
-}
+bool sun_is_up(const SkyRequest& request) { return request.sun && request.sun->direction.z > 0.0; }
 
 Angle sun_altitude(const SkyRequest& request) { return altitude_of(request.sun->direction); }
 
@@ -115,8 +113,8 @@ void make_perez(Sky& sky, const SkyRequest& request, Irradiance direct, Irradian
   conditions.sun = request.sun->direction;
   const PerezParameters parameters = perez_parameters(conditions);
   for (const Finding& finding : parameters.findings) sky.diagnostics.push_back(finding);
-  const Illuminance target = request.sky_illuminance.value_or(
-      Illuminance(parameters.diffuse_efficacy * diffuse.value()));
+  const Illuminance target =
+      request.sky_illuminance.value_or(Illuminance(parameters.diffuse_efficacy * diffuse.value()));
   sky.sun.normal_illuminance = Illuminance(parameters.beam_efficacy * direct.value());
   if (!(target > Illuminance(0.0))) return;
   sky.model = std::make_unique<PerezSky>(parameters, conditions.sun, target);
@@ -176,20 +174,31 @@ Sky make_sky(const SkyRequest& request) {
   Sky sky;
   sky.description = request.model;
   switch (name.kind) {
-    case SkyKind::None: break;
-    case SkyKind::Uniform: make_uniform(sky, request); break;
-    case SkyKind::CieOvercast: make_overcast(sky, request); break;
-    case SkyKind::CieGeneral: make_cie(sky, request, name.cie_type); break;
+    case SkyKind::None:
+      break;
+    case SkyKind::Uniform:
+      make_uniform(sky, request);
+      break;
+    case SkyKind::CieOvercast:
+      make_overcast(sky, request);
+      break;
+    case SkyKind::CieGeneral:
+      make_cie(sky, request, name.cie_type);
+      break;
     case SkyKind::Perez:
       make_perez(sky, request, name.direct_normal, name.diffuse_horizontal);
       break;
-    case SkyKind::Weather: make_weather(sky, request, name.file); break;
-    case SkyKind::Image: make_image(sky, request, name.file); break;
+    case SkyKind::Weather:
+      make_weather(sky, request, name.file);
+      break;
+    case SkyKind::Image:
+      make_image(sky, request, name.file);
+      break;
   }
   set_sun(sky, request);
-  sky.description = fmt::format("{}, {:.0f} lx diffuse horizontal, sun {:.0f} lx normal",
-                                request.model, sky.horizontal_diffuse_lux,
-                                sky.sun.normal_illuminance.value());
+  sky.description =
+      fmt::format("{}, {:.0f} lx diffuse horizontal, sun {:.0f} lx normal", request.model,
+                  sky.horizontal_diffuse_lux, sky.sun.normal_illuminance.value());
   return sky;
 }
 

@@ -29,10 +29,10 @@ struct SkyRequest {
   std::optional<Illuminance> sky_illuminance;  ///< horizontal, diffuse; default by the model
   std::optional<Illuminance> sun_illuminance;  ///< direct normal; default by the model
   std::optional<SunInSky> sun;
-  std::optional<int> day_of_year;   ///< for `perez` where the sun's distance is not known
-  std::optional<CivilTime> time;    ///< for `weather`
+  std::optional<int> day_of_year;     ///< for `perez` where the sun's distance is not known
+  std::optional<CivilTime> time;      ///< for `weather`
   std::optional<double> dew_point_c;  ///< for `perez`
-  Angle image_rotation;             ///< turns an `image` clockwise seen from above
+  Angle image_rotation;               ///< turns an `image` clockwise seen from above
 };
 
 /// A sky and its sun.

@@ -28,8 +28,8 @@ struct PerezParameters {
 };
 
 /// Source   R. Perez, R. Seals and J. Michalsky, "All-weather model for sky luminance
-///          distribution", Solar Energy 50(3), 1993, equations 3-8 and table 1; efficacies: R. Perez
-///          et al., "Modeling daylight availability and irradiance components from direct and
+///          distribution", Solar Energy 50(3), 1993, equations 3-8 and table 1; efficacies: R.
+///          Perez et al., "Modeling daylight availability and irradiance components from direct and
 ///          global irradiance", Solar Energy 44(5), 1990, equations 7-8 and table 4; air mass:
 ///          F. Kasten, 1966; limits (epsilon 1 to 12.01, delta 0.01 to 0.6, delta at least 0.2 for
 ///          epsilon between 1.065 and 2.8): as in gendaylit of J.-J. Delaunay and J. Wienold.

@@ -15,7 +15,8 @@ int steps_over(double angle, Angle longest) {
   return std::max(1, static_cast<int>(std::ceil(angle / longest.in_radians() - 1e-9)));
 }
 
-void append_parallel(std::vector<Vec3>& points, double from, double to, double sine, Angle longest) {
+void append_parallel(std::vector<Vec3>& points, double from, double to, double sine,
+                     Angle longest) {
   const double cosine = std::sqrt(std::max(0.0, 1.0 - sine * sine));
   const int steps = steps_over(std::abs(to - from) * cosine, longest);
   for (int i = 0; i < steps; ++i) points.push_back(at(from + (to - from) * i / steps, sine));

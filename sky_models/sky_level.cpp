@@ -23,15 +23,15 @@ struct ClearZenith {
   double turbidity, a1, a2, c, d;
 };
 constexpr std::array<ClearZenith, 9> kClearZenith{{
-    {12.0, 0.957, 1.790, 4.52, 0.64},   //  7
-    {10.0, 0.830, 2.030, 4.94, 0.70},   //  8
-    {12.0, 0.600, 1.500, 3.45, 0.50},   //  9
-    {10.0, 0.567, 2.610, 4.27, 0.63},   // 10
-    {4.0, 1.440, -0.750, 4.60, 0.72},   // 11
-    {2.5, 1.036, 0.710, 4.43, 0.74},    // 12
-    {4.5, 1.244, -0.840, 4.61, 0.76},   // 13
-    {5.0, 0.881, 0.453, 4.40, 0.79},    // 14
-    {4.0, 0.418, 1.950, 4.13, 0.79},    // 15
+    {12.0, 0.957, 1.790, 4.52, 0.64},  //  7
+    {10.0, 0.830, 2.030, 4.94, 0.70},  //  8
+    {12.0, 0.600, 1.500, 3.45, 0.50},  //  9
+    {10.0, 0.567, 2.610, 4.27, 0.63},  // 10
+    {4.0, 1.440, -0.750, 4.60, 0.72},  // 11
+    {2.5, 1.036, 0.710, 4.43, 0.74},   // 12
+    {4.5, 1.244, -0.840, 4.61, 0.76},  // 13
+    {5.0, 0.881, 0.453, 4.40, 0.79},   // 14
+    {4.0, 0.418, 1.950, 4.13, 0.79},   // 15
 }};
 
 Luminance zenith_luminance(const ClearZenith& k, Angle sun) {
@@ -43,8 +43,8 @@ Luminance zenith_luminance(const ClearZenith& k, Angle sun) {
 
 // Kasten and Young 1989.
 double relative_air_mass(Angle sun) {
-  return 1.0 / (std::sin(sun.in_radians()) +
-                0.50572 * std::pow(sun.in_degrees() + 6.07995, -1.6364));
+  return 1.0 /
+         (std::sin(sun.in_radians()) + 0.50572 * std::pow(sun.in_degrees() + 6.07995, -1.6364));
 }
 
 // Extinction of an ideal atmosphere after Clear, 1982, as in Darula and Kittler.

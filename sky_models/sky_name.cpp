@@ -14,8 +14,8 @@ namespace tenku {
 namespace {
 
 constexpr std::array<std::string_view, 7> kForms{
-    "uniform", "cie-overcast", "cie:12", "perez:DNI,DHI", "weather:FILE.epw", "image:FILE.hdr",
-    "none"};
+    "uniform",          "cie-overcast",   "cie:12", "perez:DNI,DHI",
+    "weather:FILE.epw", "image:FILE.hdr", "none"};
 
 /// Levenshtein's edit distance.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -41,9 +41,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   const auto nearest = *std::min_element(
       kForms.begin(), kForms.end(),
       [&](std::string_view a, std::string_view b) { return nearness(a) < nearness(b); });
-  throw InputError(fmt::format(
-      "sky '{}' is unknown; did you mean '{}'? The skies: {}", text, nearest,
-      fmt::join(kForms.begin(), kForms.end(), ", ")));
+  throw InputError(fmt::format("sky '{}' is unknown; did you mean '{}'? The skies: {}", text,
+                               nearest, fmt::join(kForms.begin(), kForms.end(), ", ")));
 }
 
 template <class T>

@@ -59,9 +59,12 @@ SkyElement element_of(const Piece& piece) {
 
 double priority(PartitionMethod method, const ElementMoments& m) {
   switch (method) {
-    case PartitionMethod::Energy: return m.luminance;
-    case PartitionMethod::Uniform: return m.solid_angle;
-    default: return std::sqrt(largest_eigenvalue(sample_covariance(m)));
+    case PartitionMethod::Energy:
+      return m.luminance;
+    case PartitionMethod::Uniform:
+      return m.solid_angle;
+    default:
+      return std::sqrt(largest_eigenvalue(sample_covariance(m)));
   }
 }
 
@@ -157,11 +160,16 @@ PartitionRequest with_defaults(PartitionRequest r) {
 
 std::string_view name_of(PartitionMethod method) {
   switch (method) {
-    case PartitionMethod::Adaptive: return "adaptive";
-    case PartitionMethod::Energy: return "energy";
-    case PartitionMethod::Uniform: return "uniform";
-    case PartitionMethod::Tregenza: return "tregenza";
-    case PartitionMethod::Reinhart: return "reinhart";
+    case PartitionMethod::Adaptive:
+      return "adaptive";
+    case PartitionMethod::Energy:
+      return "energy";
+    case PartitionMethod::Uniform:
+      return "uniform";
+    case PartitionMethod::Tregenza:
+      return "tregenza";
+    case PartitionMethod::Reinhart:
+      return "reinhart";
   }
   return "";
 }
@@ -189,9 +197,10 @@ PartitionRequest parse_partition(std::string_view text) {
     request.reinhart = text[9] - '0';
     return request;
   }
-  throw InputError(fmt::format("partition '{}' is unknown; there are adaptive, energy, uniform, "
-                               "tregenza and reinhart:1 .. reinhart:6",
-                               text));
+  throw InputError(
+      fmt::format("partition '{}' is unknown; there are adaptive, energy, uniform, "
+                  "tregenza and reinhart:1 .. reinhart:6",
+                  text));
 }
 
 double SkyPartition::horizontal_lux() const {

@@ -72,8 +72,8 @@ CsvTable::CsvTable(std::string_view text, std::string name) : name_(std::move(na
       continue;
     }
     if (cells.size() != columns_.size()) {
-      throw InputError(fmt::format("{}: {} cells, but the header has {}", here, cells.size(),
-                                   columns_.size()));
+      throw InputError(
+          fmt::format("{}: {} cells, but the header has {}", here, cells.size(), columns_.size()));
     }
     rows_.push_back({line_number, std::move(cells)});
   }

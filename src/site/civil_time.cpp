@@ -98,10 +98,10 @@ class TimeReader {
   }
 
   [[noreturn]] void fail() const {
-    throw InputError(fmt::format(
-        "'{}' is not a time; write 2026-06-21T09:00+09:00, 2026-06-21T00:00Z, or "
-        "2026-06-21T09:00 with a time zone",
-        text_));
+    throw InputError(
+        fmt::format("'{}' is not a time; write 2026-06-21T09:00+09:00, 2026-06-21T00:00Z, or "
+                    "2026-06-21T09:00 with a time zone",
+                    text_));
   }
 
  private:

@@ -112,9 +112,12 @@ SunPathLine hour_line(const Location& site, int year, int hour, int offset_minut
 
 std::string_view name_of(DayKind kind) {
   switch (kind) {
-    case DayKind::Normal: return "normal";
-    case DayKind::PolarDay: return "polar_day";
-    case DayKind::PolarNight: return "polar_night";
+    case DayKind::Normal:
+      return "normal";
+    case DayKind::PolarDay:
+      return "polar_day";
+    case DayKind::PolarNight:
+      return "polar_night";
   }
   return "";
 }

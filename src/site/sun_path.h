@@ -22,8 +22,8 @@ inline constexpr Angle kRiseAltitude = Angle::degrees(-0.8333);
 /// Rise, noon and set of one solar day.
 struct SunDay {
   DayKind kind = DayKind::Normal;
-  Instant noon;         ///< the sun crosses the meridian: true solar time 12 h
-  Angle noon_altitude;  ///< without refraction
+  Instant noon;                      ///< the sun crosses the meridian: true solar time 12 h
+  Angle noon_altitude;               ///< without refraction
   std::optional<Instant> rise, set;  ///< in the 12 hours before and after noon
   std::optional<Angle> rise_azimuth, set_azimuth;
 };

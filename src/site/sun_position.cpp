@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "site/nrel_sun.h"
 
 namespace tenku {
 namespace {
@@ -20,7 +21,7 @@ constexpr double kSemidiameter_deg = 0.26667;      // Reda and Andreas, section 
 constexpr double kHorizonRefraction_deg = 0.5667;  // likewise
 
 struct Site {
-  Vec3 position_m;      // from the centre of the Earth, in the Earth-fixed frame
+  Vec3 position_m;  // from the centre of the Earth, in the Earth-fixed frame
   Vec3 east, north, up;
 };
 
@@ -126,15 +127,6 @@ void set_geocentric(Sun& sun, const Ephemeris& bodies, const TimeScales& t, cons
   sun.hour_angle = Angle::degrees(greenwich_hour_angle);  // the site's longitude is added later
 }
 
-void check_air(const Air& air) {
-  if (!(air.pressure_hpa >= 0.0 && air.pressure_hpa <= 5000.0)) {
-    throw InputError(fmt::format("air pressure {} hPa is not in 0..5000", air.pressure_hpa));
-  }
-  if (!(air.temperature_c > -273.0 && air.temperature_c <= 6000.0)) {
-    throw InputError(fmt::format("air temperature {} C is not above -273", air.temperature_c));
-  }
-}
-
 }  // namespace
 
 Air standard_air(double elevation_m) {
@@ -156,6 +148,15 @@ void check_location(const Location& site) {
   }
 }
 
+void check_air(const Air& air) {
+  if (!(air.pressure_hpa >= 0.0 && air.pressure_hpa <= 5000.0)) {
+    throw InputError(fmt::format("air pressure {} hPa is not in 0..5000", air.pressure_hpa));
+  }
+  if (!(air.temperature_c > -273.0 && air.temperature_c <= 6000.0)) {
+    throw InputError(fmt::format("air temperature {} C is not above -273", air.temperature_c));
+  }
+}
+
 Angle refraction(Angle altitude, const Air& air) {
   const double e = altitude.in_degrees();
   if (e < -(kSemidiameter_deg + kHorizonRefraction_deg) || e >= 90.0) return {};
@@ -165,6 +166,7 @@ Angle refraction(Angle altitude, const Air& air) {
 }
 
 Sun sun_at(const Location& location, Instant instant, const SunOptions& options) {
+  if (options.algorithm == SunAlgorithm::Nrel) return sun_at_by_nrel(location, instant, options);
   check_location(location);
   const Air air = options.air.value_or(standard_air(location.elevation_m));
   check_air(air);

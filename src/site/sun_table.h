@@ -24,8 +24,8 @@ struct SunTable {
   std::vector<SunRow> rows;
 };
 
-/// Reads `time,latitude,longitude,elevation_m[,pressure_hpa,temperature_c][,delta_t_s][,dut1_s]`, in
-/// any order of columns; times are UTC unless they carry an offset.
+/// Reads `time,latitude,longitude,elevation_m[,pressure_hpa,temperature_c][,delta_t_s][,dut1_s]`,
+/// in any order of columns; times are UTC unless they carry an offset.
 /// @param name  the file's name, for messages
 /// @throws InputError naming file, line and value
 SunTable parse_sun_table(std::string_view text, const std::string& name);

@@ -42,7 +42,8 @@ class LineReader {
   std::string where() const { return fmt::format("{}, line {}", name_, number_); }
 
   double value(std::size_t field) const {
-    return finite_number(stripped(cells_.at(field)), fmt::format("{}, field {}", where(), field + 1));
+    return finite_number(stripped(cells_.at(field)),
+                         fmt::format("{}, field {}", where(), field + 1));
   }
 
   int integer(std::size_t field, int low, int high) const {

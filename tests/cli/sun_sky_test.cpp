@@ -22,8 +22,7 @@ constexpr double kDegree = 3.14159265358979323846 / 180.0;
 double separation_deg(double azimuth_a, double altitude_a, double azimuth_b, double altitude_b) {
   const double u = std::sin(0.5 * kDegree * (altitude_a - altitude_b));
   const double v = std::sin(0.5 * kDegree * (azimuth_a - azimuth_b));
-  const double h =
-      u * u + std::cos(kDegree * altitude_a) * std::cos(kDegree * altitude_b) * v * v;
+  const double h = u * u + std::cos(kDegree * altitude_a) * std::cos(kDegree * altitude_b) * v * v;
   return 2.0 * std::asin(std::sqrt(h)) / kDegree;
 }
 
@@ -37,8 +36,8 @@ TEST(SunCommand, TableOfTheReferenceIsWithinAHundredThousandthOfADegree) {
   std::string in =
       "time,latitude,longitude,elevation_m,pressure_hpa,temperature_c,delta_t_s,dut1_s\n";
   for (std::size_t i = 0; i < t.size(); ++i) {
-    for (const char* column : {"ut1", "lat_deg", "lon_deg", "elev_m", "pressure_hPa", "temp_C",
-                               "delta_t_s"}) {
+    for (const char* column :
+         {"ut1", "lat_deg", "lon_deg", "elev_m", "pressure_hPa", "temp_C", "delta_t_s"}) {
       in += t.text(i, column) + ",";
     }
     in += "0\n";
@@ -83,10 +82,23 @@ TEST(SunCommand, DayHasRiseNoonAndSetAndThePolesAnswer) {
   EXPECT_EQ(polar_day["day"], "polar_day");
 }
 
+// NREL/TP-560-34302, appendix A.5.
+TEST(SunCommand, NrelAlgorithmPrintsTheReportsExample) {
+  const ProgramRun run = run_tenku(
+      "sun --algorithm nrel --lat 39.742476 --lon -105.1786 --elevation 1830.14 --pressure 820 "
+      "--temperature 11 --time 2003-10-17T12:30:30-07:00 --delta-t 67 --dut1 0 --json --quiet",
+      test_folder());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const json sun = json::parse(run.out);
+  EXPECT_NEAR(sun["azimuth_deg"].get<double>(), 194.340241, 1e-6);
+  EXPECT_NEAR(90.0 - sun["apparent_altitude_deg"].get<double>(), 50.111622, 1e-6);
+}
+
 TEST(SunCommand, WrongInputIsExitTwoAndLeavesNothing) {
   const auto folder = test_folder();
-  write(folder / "bad.csv", "time,latitude,longitude,elevation_m\n2026-06-21T00:00,43,141,0\n"
-                            "2026-06-21T00:00,91,141,0\n");
+  write(folder / "bad.csv",
+        "time,latitude,longitude,elevation_m\n2026-06-21T00:00,43,141,0\n"
+        "2026-06-21T00:00,91,141,0\n");
   write(folder / "nan.csv", "time,latitude,longitude,elevation_m\n2026-06-21T00:00,nan,141,0\n");
   write(folder / "short.csv", "time,latitude,longitude,elevation_m\n2026-06-21T00:00,43\n");
   write(folder / "column.csv", "time,latitude\n2026-06-21T00:00,43\n");
@@ -163,8 +175,8 @@ TEST(SkyCommand, ElementsAddUpToTheSky) {
 }
 
 TEST(SkyCommand, NightIsDarkButDone) {
-  const ProgramRun run = run_tenku(
-      "sky --sky cie:12 --sun-altitude -3 --sun-azimuth 90 --json", test_folder());
+  const ProgramRun run =
+      run_tenku("sky --sky cie:12 --sun-altitude -3 --sun-azimuth 90 --json", test_folder());
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const json summary = json::parse(run.out);
   EXPECT_EQ(summary["horizontal_diffuse_lux"].get<double>(), 0.0);

@@ -95,7 +95,9 @@ TEST(TimeScales, DeltaTIsTheObservedOne) {
     const double date = t.number(i, "jd_ut1_int") + t.number(i, "jd_ut1_frac");
     const double year = 2000.0 + (date - 2451544.5) / 365.25;
     if (year > 2025.0) continue;
-    (year < 1973.0 ? early : year < 2023.0 ? observed : late)
+    (year < 1973.0   ? early
+     : year < 2023.0 ? observed
+                     : late)
         .add(delta_t_seconds(date) - t.number(i, "delta_t_s"), t.text(i, "ut1"));
   }
   EXPECT_LT(early.worst(), 0.7);
@@ -114,8 +116,7 @@ TEST(TimeScales, Ut1StaysWithinASecondOfUtc) {
   for (int year = 1972; year <= 2050; ++year) {
     const Instant t = instant_from_utc({year, 6, 30, 12, 0, 0.0});
     const TimeScales scales = time_scales(t);
-    const double dut1 =
-        (scales.ut1.day - t.day + scales.ut1.fraction - t.fraction) * 86400.0;
+    const double dut1 = (scales.ut1.day - t.day + scales.ut1.fraction - t.fraction) * 86400.0;
     EXPECT_LT(std::abs(dut1), 0.95) << year;
   }
 }

@@ -118,8 +118,8 @@ TEST(SunDay, AgreesWithTheNaojTableOfAYear) {
     ASSERT_EQ(std::sscanf(transit.c_str(), "%d:%d:%d", &h, &m, &s), 3) << line;
     ASSERT_EQ(std::sscanf(up.c_str(), "%d:%d", &uh, &um), 2) << line;
     ASSERT_EQ(std::sscanf(down.c_str(), "%d:%d", &dh, &dm), 2) << line;
-    const Instant midnight = later_by(
-        instant_from_utc({year, month, day_number, 0, 0, 0.0}), -9.0 * 3600.0);
+    const Instant midnight =
+        later_by(instant_from_utc({year, month, day_number, 0, 0, 0.0}), -9.0 * 3600.0);
     const SunDay day = sun_day(site, later_by(midnight, 12.0 * 3600.0));
     noon.add(seconds_between(midnight, day.noon) - (h * 3600.0 + m * 60.0 + s), date);
     altitude.add(sun_at(site, day.noon).apparent_altitude.in_degrees() - std::stod(top), date);

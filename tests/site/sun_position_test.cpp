@@ -30,16 +30,19 @@ SunOptions options_of(const ReferenceTable& t, std::size_t i) {
 TEST(SunPosition, AgreesWithTheReferenceEverywhere) {
   const ReferenceTable t(TENKU_TEST_REFERENCE "/sun/positions.csv");
   ASSERT_EQ(t.size(), 1200u);
-  WorstError direction("sun_direction_deg"), refracted("refraction_deg"), eot("equation_of_time_min"),
-      distance("distance_au"), ra("right_ascension_deg"), dec("declination_deg");
+  WorstError direction("sun_direction_deg"), refracted("refraction_deg"),
+      eot("equation_of_time_min"), distance("distance_au"), ra("right_ascension_deg"),
+      dec("declination_deg");
   for (std::size_t i = 0; i < t.size(); ++i) {
-    const Sun sun = sun_at(place(t.number(i, "lat_deg"), t.number(i, "lon_deg"), t.number(i, "elev_m")),
-                           parse_time(t.text(i, "ut1") + "Z").instant, options_of(t, i));
+    const Sun sun =
+        sun_at(place(t.number(i, "lat_deg"), t.number(i, "lon_deg"), t.number(i, "elev_m")),
+               parse_time(t.text(i, "ut1") + "Z").instant, options_of(t, i));
     const std::string& id = t.text(i, "id");
     const Vec3 expected{t.number(i, "east"), t.number(i, "north"), t.number(i, "up")};
     direction.add(angle_between(sun.direction, expected).in_degrees(), id);
-    refracted.add((sun.apparent_altitude - sun.altitude).in_degrees() -
-                      t.number(i, "refraction_spa_deg"), id);
+    refracted.add(
+        (sun.apparent_altitude - sun.altitude).in_degrees() - t.number(i, "refraction_spa_deg"),
+        id);
     eot.add(sun.equation_of_time_min - t.number(i, "eot_min"), id);
     distance.add(sun.distance_au - t.number(i, "geo_dist_au"), id);
     ra.add(std::remainder(sun.right_ascension.in_degrees() - t.number(i, "geo_ra_deg"), 360.0), id);
@@ -76,9 +79,8 @@ TEST(SunPosition, AgreesWithHorizons) {
   const Sun sun = sun_at(place(0, 0, 0), parse_time("2005-10-01T07:00Z").instant);
   const double obliquity = 23.4385 * kPi / 180.0;  // true, of date, to 0.0005 degrees
   const double ra = sun.right_ascension.in_radians(), dec = sun.declination.in_radians();
-  const double longitude = std::atan2(std::sin(ra) * std::cos(obliquity) +
-                                          std::tan(dec) * std::sin(obliquity),
-                                      std::cos(ra));
+  const double longitude = std::atan2(
+      std::sin(ra) * std::cos(obliquity) + std::tan(dec) * std::sin(obliquity), std::cos(ra));
   EXPECT_NEAR(longitude * 180.0 / kPi + 360.0, 188.2011122, 1e-4);
 }
 

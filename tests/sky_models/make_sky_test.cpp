@@ -48,7 +48,8 @@ std::filesystem::path write_picture(const std::string& name, int width, int heig
   file << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " << height << " +X " << width << "\n";
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      // 2 in the eastern quarter around azimuth 90, 1 elsewhere: mantissa 128 with exponents 130, 129
+      // 2 in the eastern quarter around azimuth 90, 1 elsewhere: mantissa 128 with exponents 130,
+      // 129
       const bool is_east = x >= 5 * width / 8 && x < 7 * width / 8;
       const char pixel[4] = {'\x80', '\x80', '\x80', is_east ? '\x82' : '\x81'};
       file.write(pixel, 4);
@@ -58,13 +59,14 @@ std::filesystem::path write_picture(const std::string& name, int width, int heig
 }
 
 TEST(MakeSky, EveryModelHasTheLevelAskedFor) {
-  for (const char* model : {"uniform", "cie-overcast", "cie:1", "cie:7", "cie:12", "cie:15",
-                            "perez:500,120"}) {
+  for (const char* model :
+       {"uniform", "cie-overcast", "cie:1", "cie:7", "cie:12", "cie:15", "perez:500,120"}) {
     SkyRequest r = request(model);
     r.sky_illuminance = Illuminance(12345.0);
     const Sky sky = make_sky(r);
     ASSERT_TRUE(sky.model) << model;
-    EXPECT_NEAR(horizontal_illuminance(*sky.model, r.sun->direction).value(), 12345.0, 0.01) << model;
+    EXPECT_NEAR(horizontal_illuminance(*sky.model, r.sun->direction).value(), 12345.0, 0.01)
+        << model;
     EXPECT_NEAR(sky.horizontal_diffuse_lux, 12345.0, 1e-6) << model;
   }
 }
@@ -211,7 +213,8 @@ TEST(ImageSky, EastOfThePictureIsEastAndTurnsClockwise) {
 
 TEST(ImageSky, WrongPicturesAreRefused) {
   const auto square = write_picture("square.hdr", 32, 32);
-  EXPECT_NE(message_of(request("image:" + square.string())).find("twice as wide"), std::string::npos);
+  EXPECT_NE(message_of(request("image:" + square.string())).find("twice as wide"),
+            std::string::npos);
   const auto whole = write_picture("whole.hdr", 64, 32);
   std::filesystem::resize_file(whole, 60);
   EXPECT_NE(message_of(request("image:" + whole.string())), "");

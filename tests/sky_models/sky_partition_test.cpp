@@ -64,7 +64,8 @@ TEST(SkyPartition, TregenzaAndReinhartAreThePublishedPatches) {
   const ReferenceTable t(TENKU_TEST_REFERENCE "/sky/subdivision.csv");
   const UniformSky sky(Luminance(1.0));
   for (const auto& [name, partition, total] :
-       {std::tuple("tregenza145", "tregenza", 145u), std::tuple("reinhart_mf2_577", "reinhart:2", 577u),
+       {std::tuple("tregenza145", "tregenza", 145u),
+        std::tuple("reinhart_mf2_577", "reinhart:2", 577u),
         std::tuple("reinhart_mf4_2305", "reinhart:4", 2305u),
         std::tuple("reinhart_mf6_5185", "reinhart:6", 5185u)}) {
     const SkyPartition p = partition_sky(sky, request(partition));
@@ -223,15 +224,17 @@ TEST(SkyPartition, AdaptiveBeatsEnergyAndUniformAndIsNoWorseThanFixedPatches) {
   for (const int type : {1, 12, 15}) {
     const Vec3 sun = sun_at_altitude(25.0);
     const CieGeneralSky sky(type, sun, Luminance(1000.0));
-    for (const auto& [fixed, count] :
-         {std::pair<std::string, std::size_t>("tregenza", 145), {"reinhart:2", 577}, {"reinhart:4", 2305}}) {
+    for (const auto& [fixed, count] : {std::pair<std::string, std::size_t>("tregenza", 145),
+                                       {"reinhart:2", 577},
+                                       {"reinhart:4", 2305}}) {
       double adaptive_error = 0.0;
       for (const PartitionRequest& r : {request("adaptive", count), request("energy", count),
                                         request("uniform", count), request(fixed)}) {
         const SkyPartition p = partition_sky(sky, r);
         const auto [worst, mean] = plane_errors(sky, sun, p);
-        std::printf("[ MEASURED ] cie:%d %-26s standard error %.3f %%, planes worst %.3f %% mean %.3f %%\n",
-                    type, p.description.c_str(), 100.0 * p.standard_error, worst, mean);
+        std::printf(
+            "[ MEASURED ] cie:%d %-26s standard error %.3f %%, planes worst %.3f %% mean %.3f %%\n",
+            type, p.description.c_str(), 100.0 * p.standard_error, worst, mean);
         if (adaptive_error == 0.0) adaptive_error = p.standard_error;
         // Fixed patches are a little rounder than halves of halves: under an even sky they tie.
         EXPECT_LE(adaptive_error, (r.elements ? 1.0001 : 1.03) * p.standard_error) << p.description;
