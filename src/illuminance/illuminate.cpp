@@ -39,14 +39,18 @@ class SensorWork {
         sun_(rays, source.sun, sensors.position[index], sensors.normal[index],
              mix_bits(mix_bits(options.seed) + index)),
         reflected_(rays, cache, options.bounces, sensors.position[index], sensors.normal[index],
-                   SampleRandom(options.seed, index, 1)) {}
+                   SampleRandom(options.seed, index, 1)) {
+    if (options.known_direct_lux != nullptr) known_direct_ = (*options.known_direct_lux)[index];
+  }
 
   /// Refines until the budget is met; false if the limit of effort came first.
   bool finish(const ErrorBudget& budget) {
-    sun_.refine();
-    do {
-      sky_.refine();
-    } while (sky_.may_miss_openings());
+    if (known_direct_ < 0.0) {
+      sun_.refine();
+      do {
+        sky_.refine();
+      } while (sky_.may_miss_openings());
+    }
     if (options_.bounces > 0) reflected_.refine();
     while (variance() > budget.allowed_variance(total())) {
       if (!refine_worst()) return false;
@@ -67,7 +71,9 @@ class SensorWork {
   }
 
  private:
-  double total() const { return sky_.lux() + sun_.lux() + reflected_.lux(); }
+  double total() const {
+    return std::max(0.0, known_direct_) + sky_.lux() + sun_.lux() + reflected_.lux();
+  }
   double variance() const { return sky_.variance() + sun_.variance() + reflected_.variance(); }
 
   /// Doubles the effort of the least certain part that can still be refined.
@@ -91,6 +97,7 @@ class SensorWork {
   SensorSky sky_;
   SensorSun sun_;
   ReflectedLight reflected_;
+  double known_direct_ = -1.0;  ///< below zero: not known
 };
 
 }  // namespace
@@ -105,7 +112,7 @@ IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
   std::atomic<std::uint64_t> rays_sent{0};
   std::atomic<std::size_t> missed{0};
   DirectCache cache(rays, source, options.seed);
-  progress.begin("illuminance", sensors.size());
+  progress.begin(options.known_direct_lux ? "reflected light" : "illuminance", sensors.size());
   parallel_for(sensors.size(), kGrain, [&](IndexRange range) {
     progress.stop_if_cancelled();
     for (std::size_t i = range.begin; i < range.end; ++i) {

@@ -19,6 +19,9 @@ struct IlluminanceOptions {
   std::uint64_t seed = 1;
   int most_slices = 4096;   ///< of the sky, a sensor
   int most_paths = 16384;   ///< of reflected light, a sensor
+  /// Direct light already known [sensor]: only the reflected light is found, to the tolerance of
+  /// the sum. Borrowed.
+  const std::vector<double>* known_direct_lux = nullptr;
 };
 
 /// What came out, and what it took.

@@ -1,0 +1,120 @@
+#include "illuminance/sensor_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/error.h"
+
+namespace tenku {
+namespace {
+
+constexpr double kInset = 0.02;  // of the way from a corner to the middle of its part
+constexpr std::size_t kMostSensors = 50'000'000;
+
+struct Corners {
+  Vec3 a, b, c;
+
+  Vec3 at(double u, double v) const { return a + u * (b - a) + v * (c - a); }
+  Vec3 middle() const { return (1.0 / 3.0) * (a + b + c); }
+  double longest_side() const {
+    return std::max({length(b - a), length(c - b), length(a - c)});
+  }
+};
+
+/// Adds the sensors and parts of one triangle.
+class GridBuilder {
+ public:
+  GridBuilder(SensorGrid& grid, double spacing_m) : grid_(grid), spacing_(spacing_m) {}
+
+  void add(std::uint32_t triangle, SurfaceType type, const Corners& corners) {
+    const Vec3 twice_area = cross(corners.b - corners.a, corners.c - corners.a);
+    const double area = 0.5 * length(twice_area);
+    if (!(area > 0.0)) return;
+    normal_ = normalized(twice_area);
+    type_ = type;
+    triangle_ = triangle;
+    const double parts = std::ceil(corners.longest_side() / spacing_);
+    if (grid_.sensors.size() + 0.5 * parts * parts > kMostSensors) {
+      throw InputError("a spacing of " + std::to_string(spacing_) +
+                       " m gives over 50 million sensors; choose a wider one");
+    }
+    if (parts <= 1.0) {
+      add_single(corners, area);
+    } else {
+      add_divided(corners, area, static_cast<std::uint32_t>(parts));
+    }
+  }
+
+ private:
+  std::uint32_t add_sensor(Vec3 position, double area) {
+    grid_.sensors.position.push_back(position);
+    grid_.sensors.normal.push_back(normal_);
+    grid_.area_m2.push_back(area);
+    grid_.type.push_back(type_);
+    return static_cast<std::uint32_t>(grid_.sensors.size() - 1);
+  }
+
+  void add_part(std::array<std::uint32_t, 3> sensors, std::array<Vec3, 3> points) {
+    grid_.corner_sensor.push_back(sensors);
+    grid_.corner_point.push_back(points);
+    grid_.triangle.push_back(triangle_);
+  }
+
+  void add_single(const Corners& corners, double area) {
+    const std::uint32_t sensor = add_sensor(corners.middle(), area);
+    add_part({sensor, sensor, sensor}, {corners.a, corners.b, corners.c});
+  }
+
+  void add_divided(const Corners& corners, double area, std::uint32_t n) {
+    const auto first = static_cast<std::uint32_t>(grid_.sensors.size());
+    const auto index = [&](std::uint32_t i, std::uint32_t j) {  // row j holds n + 1 - j points
+      return first + j * (n + 1) - j * (j - 1) / 2 + i;
+    };
+    const auto point = [&](std::uint32_t i, std::uint32_t j) {
+      return corners.at(static_cast<double>(i) / n, static_cast<double>(j) / n);
+    };
+    const Vec3 middle = corners.middle();
+    for (std::uint32_t j = 0; j <= n; ++j) {
+      for (std::uint32_t i = 0; i + j <= n; ++i) {
+        // A corner of the whole stands for one part, a side for three, the inside for six.
+        const int sides = (i == 0) + (j == 0) + (i + j == n);
+        const double share = sides == 0 ? 6.0 : sides == 1 ? 3.0 : 1.0;
+        const Vec3 corner = point(i, j);
+        const Vec3 inward = (kInset * 3.0 / n) * (middle - corner);
+        add_sensor(sides == 0 ? corner : corner + inward, area * share / (3.0 * n * n));
+      }
+    }
+    for (std::uint32_t j = 0; j < n; ++j) {
+      for (std::uint32_t i = 0; i + j < n; ++i) {
+        add_part({index(i, j), index(i + 1, j), index(i, j + 1)},
+                 {point(i, j), point(i + 1, j), point(i, j + 1)});
+        if (i + j + 1 >= n) continue;
+        add_part({index(i + 1, j), index(i + 1, j + 1), index(i, j + 1)},
+                 {point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)});
+      }
+    }
+  }
+
+  SensorGrid& grid_;
+  double spacing_;
+  Vec3 normal_{};
+  SurfaceType type_ = SurfaceType::Unknown;
+  std::uint32_t triangle_ = 0;
+};
+
+}  // namespace
+
+void append_sensors(SensorGrid& grid, const TriangleSoup& soup,
+                    std::span<const std::uint32_t> triangles, double spacing_m) {
+  if (!(spacing_m > 0.0) || !std::isfinite(spacing_m)) {
+    throw InputError("a spacing of " + std::to_string(spacing_m) + " m is not positive");
+  }
+  GridBuilder builder(grid, spacing_m);
+  for (const std::uint32_t t : triangles) {
+    const auto& [a, b, c] = soup.triangles[t];
+    builder.add(t, soup.surface_type[t], {soup.vertices[a], soup.vertices[b], soup.vertices[c]});
+  }
+}
+
+}  // namespace tenku

@@ -1,0 +1,35 @@
+/// Sensors spread over the surfaces of a scene, and the mesh that shows their values.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "illuminance/sensor.h"
+#include "scene/triangle_soup.h"
+
+namespace tenku {
+
+/// Sensors on triangles, with the finer triangles between them.
+///
+/// A triangle larger than the spacing is divided evenly, with a sensor at every corner of the
+/// parts; a smaller one has one sensor, in its middle. Sensors at corners are drawn in a little,
+/// off the walls that may stand there.
+/// Shape    `corner_sensor` and `corner_point` are [part][3]; `triangle` is [part], into the soup.
+struct SensorGrid {
+  Sensors sensors;
+  std::vector<double> area_m2;  ///< [sensor], what it stands for
+  std::vector<SurfaceType> type;  ///< [sensor]
+  std::vector<std::array<std::uint32_t, 3>> corner_sensor;
+  std::vector<std::array<Vec3, 3>> corner_point;
+  std::vector<std::uint32_t> triangle;
+};
+
+/// Adds sensors on the front sides of the chosen triangles.
+/// @param spacing_m  largest distance between neighbours, metres
+/// @throws InputError if the spacing is not positive, or there would be over 50 million sensors
+void append_sensors(SensorGrid& grid, const TriangleSoup& soup,
+                    std::span<const std::uint32_t> triangles, double spacing_m);
+
+}  // namespace tenku

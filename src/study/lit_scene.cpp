@@ -1,0 +1,107 @@
+#include "study/lit_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include "core/error.h"
+#include "core/suggest.h"
+#include "scene/flatten.h"
+
+namespace tenku {
+namespace {
+
+constexpr double kGivenGroundSensors = 20000.0;
+
+struct SurfaceGroup {
+  std::string_view name;
+  std::vector<SurfaceType> types;
+};
+
+const std::vector<SurfaceGroup>& surface_groups() {
+  static const std::vector<SurfaceGroup> groups{
+      {"ground", {SurfaceType::Ground, SurfaceType::Road, SurfaceType::Floor, SurfaceType::Water}},
+      {"roofs", {SurfaceType::Roof}},
+      {"walls", {SurfaceType::Wall, SurfaceType::Window, SurfaceType::Door}},
+  };
+  return groups;
+}
+
+std::vector<SurfaceType> types_named(const std::string& name) {
+  std::vector<std::string_view> known;
+  for (const SurfaceGroup& group : surface_groups()) {
+    if (group.name == name) return group.types;
+    known.push_back(group.name);
+  }
+  if (const auto type = surface_type_named(name)) return {*type};
+  for (int t = 0; t < kSurfaceTypes; ++t) known.push_back(name_of(static_cast<SurfaceType>(t)));
+  throw InputError("there is no kind of surface named '" + name + "'" + suggestion(name, known));
+}
+
+}  // namespace
+
+SurfaceType broad_type(const TriangleSoup& soup, std::uint32_t triangle) {
+  const SurfaceType type = soup.surface_type[triangle];
+  if (type != SurfaceType::Unknown) return type;
+  const auto& [a, b, c] = soup.triangles[triangle];
+  const Vec3 n = cross(soup.vertices[b] - soup.vertices[a], soup.vertices[c] - soup.vertices[a]);
+  return type_by_normal(n);
+}
+
+LitScene::LitScene(const std::filesystem::path& file, const ReadOptions& options,
+                   const SkyMaker& make_sky, Progress& progress)
+    : scene_(read_scene(file, options, progress)),
+      soup_(std::make_unique<TriangleSoup>(flatten(scene_))) {
+  progress.stop_if_cancelled();
+  progress.begin("tree of boxes", 0);
+  rays_ = std::make_unique<RayVisibility>(*soup_, scene_.materials);
+  progress.end(std::to_string(soup_->size()) + " triangles");
+  sky_ = make_sky(site());
+  if (sky_.model) source_.sky = std::make_unique<SkyTable>(*sky_.model);
+  source_.sun = sky_.sun;
+}
+
+std::optional<Location> LitScene::site() const {
+  if (!scene_.georeference) return std::nullopt;
+  return scene_.georeference->origin;
+}
+
+Sensors LitScene::to_local(const Sensors& in_file) const {
+  Sensors local;
+  for (std::size_t i = 0; i < in_file.size(); ++i) {
+    local.position.push_back(scene_.frame.to_local(in_file.position[i]));
+    local.normal.push_back(normalized(scene_.frame.direction_to_local(in_file.normal[i])));
+  }
+  return local;
+}
+
+SensorGrid LitScene::grid(std::span<const std::string> surfaces, double spacing_m) const {
+  std::array<bool, kSurfaceTypes> wanted{};
+  for (const std::string& name : surfaces) {
+    for (const SurfaceType type : types_named(name)) wanted[static_cast<std::size_t>(type)] = true;
+  }
+  std::vector<std::uint32_t> own, given;
+  double given_area = 0.0;
+  for (std::uint32_t t = 0; t < soup_->size(); ++t) {
+    if (!wanted[static_cast<std::size_t>(broad_type(*soup_, t))]) continue;
+    if (scene_.objects[soup_->object[t]].id != kGroundObjectId) {
+      own.push_back(t);
+      continue;
+    }
+    if (scene_.has_terrain) continue;  // it only closes the horizon there
+    const auto& [a, b, c] = soup_->triangles[t];
+    given.push_back(t);
+    given_area += 0.5 * length(cross(soup_->vertices[b] - soup_->vertices[a],
+                                     soup_->vertices[c] - soup_->vertices[a]));
+  }
+  SensorGrid grid;
+  append_sensors(grid, *soup_, own, spacing_m);
+  append_sensors(grid, *soup_, given,
+                 std::max(spacing_m, std::sqrt(given_area / kGivenGroundSensors)));
+  if (grid.sensors.size() == 0) throw InputError("the scene has no surfaces of the kinds asked for");
+  return grid;
+}
+
+}  // namespace tenku

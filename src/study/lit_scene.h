@@ -1,0 +1,62 @@
+/// A scene with its light: what every calculation starts from.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "core/progress.h"
+#include "illuminance/daylight_source.h"
+#include "illuminance/sensor_grid.h"
+#include "scene/read_scene.h"
+#include "scene/scene.h"
+#include "scene/triangle_soup.h"
+#include "site/location.h"
+#include "sky_models/make_sky.h"
+#include "visibility/ray_visibility.h"
+
+namespace tenku {
+
+/// The scene as read and as triangles, who sees what in it, the sky and the sun.
+///
+/// Threads  immutable after construction; may be shared.
+class LitScene {
+ public:
+  /// Makes the sky once the scene has told where it lies.
+  using SkyMaker = std::function<Sky(const std::optional<Location>& scene_site)>;
+
+  /// @throws InputError, ResourceError as the readers and the ray engine do
+  LitScene(const std::filesystem::path& file, const ReadOptions& options, const SkyMaker& make_sky,
+           Progress& progress);
+
+  const Scene& scene() const { return scene_; }
+  const TriangleSoup& soup() const { return *soup_; }
+  const RayVisibility& rays() const { return *rays_; }
+  const Sky& sky() const { return sky_; }
+  const DaylightSource& source() const { return source_; }
+  std::optional<Location> site() const;
+
+  /// Sensors given in the coordinates of the scene file, in the local frame.
+  Sensors to_local(const Sensors& in_file) const;
+
+  /// Sensors on surfaces by the names of `--grid`: `ground`, `roofs`, `walls`, or a surface type.
+  /// The ground that tenku gave gets a wider spacing of its own.
+  /// @throws InputError if a name is not known or nothing bears it
+  SensorGrid grid(std::span<const std::string> surfaces, double spacing_m) const;
+
+ private:
+  Scene scene_;
+  std::unique_ptr<TriangleSoup> soup_;
+  std::unique_ptr<RayVisibility> rays_;
+  Sky sky_;
+  DaylightSource source_;
+};
+
+/// Whether a triangle counts as ground, roof or wall: its type, or its slope where the file does
+/// not say.
+SurfaceType broad_type(const TriangleSoup& soup, std::uint32_t triangle);
+
+}  // namespace tenku

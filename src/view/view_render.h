@@ -1,0 +1,44 @@
+/// A view of the lit scene.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/progress.h"
+#include "illuminance/illuminate.h"
+#include "sky_models/sky_model.h"
+#include "view/camera.h"
+#include "view/image.h"
+
+namespace tenku {
+
+struct ViewRequest {
+  PerspectiveView view;
+  double tolerance_pct = 2.0;  ///< of the light on what is seen; see `RenderedView`
+  int bounces = 5;
+  std::uint64_t seed = 1;
+};
+
+/// What the camera sees.
+///
+/// Every pixel is four rays; those that meet the same surface share one sensor. Direct light is
+/// found for each sensor; reflected light, which varies slowly, for one sensor in a block of
+/// pixels on the same surface, and is blended between neighbours. Skylight is averaged with the
+/// nearest pixels on the same surface.
+///
+/// Shape    every array [row][column], row 0 at the top.
+/// Error    a pixel's standard error is held to the tolerance, not its four-fold: pictures are
+///          seen, not measured; `error_lux` tells the 95 % interval.
+struct RenderedView {
+  Image luminance;                 ///< linear RGB, cd/m2, the sky behind
+  std::vector<double> illuminance_lux, error_lux;  ///< NaN where the sky is seen
+  std::uint64_t rays = 0;
+  double error_mean = 0.0;         ///< mean of error_lux over the pixels that have one
+};
+
+/// @param sky  for what is seen behind the scene; null: black
+/// @throws InputError, Cancelled as `illuminate` and `PerspectiveCamera` do
+RenderedView render_view(const ViewRequest& request, const RayVisibility& rays,
+                         const DaylightSource& source, const SkyModel* sky, Progress& progress);
+
+}  // namespace tenku
