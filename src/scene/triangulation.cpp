@@ -211,6 +211,7 @@ void triangulate_polygon(const Surfaces& surfaces, std::size_t surface, std::vec
     return split_quad(outer, vertices, triangles);
   }
   Delaunay mesh = mesh_of(surfaces, surface, plane, vertices);
+  if (mesh.dimension() < 2) return;  // goes to and fro on a line: nothing to fill
   mark_nesting(mesh);
   for (auto face : mesh.finite_face_handles()) {
     if (face->info().level % 2 == 0) continue;

@@ -108,6 +108,26 @@ TEST(Georeference, LocalNorthIsTrueNorthAndLengthsAreTrue) {
   EXPECT_NEAR(length(scene.frame.to_file(scene.vertices[2]) - Vec3{78700, 457900, 0}), 0.0, 1e-6);
 }
 
+// What FileFrame's header says of using the origin's scale and convergence 5 km away.
+TEST(Georeference, ScaleAndConvergenceChangeByLessThanTheHeaderSays) {
+  struct Site {
+    const char* crs;
+    Vec3 origin;
+  };
+  for (const auto& [crs, origin] : std::initializer_list<Site>{{"EPSG:28992", {80000, 455000, 0}},
+                                                               {"EPSG:2056", {2683000, 1248000, 0}},
+                                                               {"EPSG:6677", {-8800, -36700, 0}},
+                                                               {"EPSG:31255", {70700, 352400, 0}}}) {
+    const Crs grid = Crs::parse(crs);
+    const Georeference here = grid.at(origin);
+    for (const Vec3 step : {Vec3{5000, 0, 0}, Vec3{0, 5000, 0}, Vec3{-5000, 0, 0}}) {
+      const Georeference there = grid.at(origin + step);
+      EXPECT_NEAR(there.point_scale / here.point_scale, 1.0, 1.2e-5) << crs;
+      EXPECT_NEAR((there.grid_convergence - here.grid_convergence).in_degrees(), 0.0, 0.06) << crs;
+    }
+  }
+}
+
 TEST(Georeference, OptionsOverrideTheFile) {
   ReadOptions options = without_ground();
   options.crs = "EPSG:6677";
