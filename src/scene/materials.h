@@ -15,7 +15,8 @@ namespace tenku {
 Material default_material(SurfaceType type);
 
 /// Named materials of a TOML file; `cli.md` has the keys.
-/// @throws InputError  naming file and line: not TOML, a key that is not known, a value out of range
+/// @throws InputError  naming file and line: not TOML, a key that is not known, a value out of
+/// range
 std::map<std::string, Material> read_materials(const std::filesystem::path& path);
 
 /// Sets the scene's materials and the material of each surface. The most specific name wins: object

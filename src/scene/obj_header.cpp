@@ -43,10 +43,14 @@ std::optional<Vec3> axis_before(std::string_view before) {
   before = trimmed(before);
   if (before.empty()) return std::nullopt;
   switch (before.back()) {
-    case 'x': return Vec3{sign, 0.0, 0.0};
-    case 'y': return Vec3{0.0, sign, 0.0};
-    case 'z': return Vec3{0.0, 0.0, sign};
-    default: return std::nullopt;
+    case 'x':
+      return Vec3{sign, 0.0, 0.0};
+    case 'y':
+      return Vec3{0.0, sign, 0.0};
+    case 'z':
+      return Vec3{0.0, 0.0, sign};
+    default:
+      return std::nullopt;
   }
 }
 
@@ -80,7 +84,9 @@ void read_axes(std::string_view text, RawScene& raw) {
   code = code.substr(0, code.find_first_not_of("0123456789"));
   if (code.empty() || dot(cross(easting->axis, northing->axis), height->axis) != 1.0) return;
   raw.crs = "EPSG:" + std::string(code);
-  raw.axes = {easting->axis, northing->axis, height->axis,
+  raw.axes = {easting->axis,
+              northing->axis,
+              height->axis,
               {easting->offset, northing->offset, height->offset}};
   raw.axes_are_given = true;
 }

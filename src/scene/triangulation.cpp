@@ -192,8 +192,7 @@ PolygonShape shape_of(const Scene& scene, std::size_t surface) {
     }
     const std::vector<Point2> flat = flat_ring(ring, plane, scene.vertices);
     if (flat.size() == 4 && is_convex(flat)) continue;
-    shape.is_simple =
-        shape.is_simple && CGAL::is_simple_2(flat.begin(), flat.end(), Kernel());
+    shape.is_simple = shape.is_simple && CGAL::is_simple_2(flat.begin(), flat.end(), Kernel());
   }
   return shape;
 }
