@@ -92,7 +92,8 @@ Json json_of(const Scene& scene, const Counts& counts) {
 }
 
 void print_place(const Scene& scene) {
-  if (!scene.georeference) return fmt::print("place       not known (give --crs, or --lat and --lon)\n");
+  if (!scene.georeference)
+    return fmt::print("place       not known (give --crs, or --lat and --lon)\n");
   const Georeference& at = *scene.georeference;
   if (!at.crs.empty()) fmt::print("crs         {} ({})\n", at.crs, at.name);
   fmt::print("place       latitude {:.6f}, longitude {:.6f} at the local origin\n",
@@ -106,7 +107,8 @@ template <class Map>
 void print_counts(const char* title, const Map& counts) {
   std::string line;
   for (const auto& [name, count] : counts) {
-    if (!std::string(name).empty()) line += fmt::format("{}{} {}", line.empty() ? "" : ", ", count, name);
+    if (!std::string(name).empty())
+      line += fmt::format("{}{} {}", line.empty() ? "" : ", ", count, name);
   }
   if (!line.empty()) fmt::print("{:<11} {}\n", title, line);
 }

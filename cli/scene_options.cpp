@@ -24,7 +24,8 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
   app.add_option("--rotate", options.rotate_deg, "turn the model clockwise by degrees");
   app.add_option("--scale", options.scale, "metres per unit of the file (default 1)");
   app.add_option("--up", options.up, "axis of the file that points up: y or z");
-  app.add_option("--crs", options.crs, "coordinate reference system of the file, such as EPSG:6677");
+  app.add_option("--crs", options.crs,
+                 "coordinate reference system of the file, such as EPSG:6677");
   app.add_option("--ground", options.ground,
                  "auto (under a city without terrain), none, or a height of the file");
   app.add_option("--building-lod", options.building_lod,

@@ -41,8 +41,12 @@ class GeometryAppender {
   /// Index into `Scene::vertices` of a vertex index in the file; refuses what is out of range.
   using VertexOf = std::function<std::uint32_t(std::uint64_t)>;
 
-  GeometryAppender(RawScene& raw, const CityJsonPlace& place, SurfaceFacts facts, VertexOf vertex_of)
-      : raw_(raw), place_(place), facts_(facts), object_type_(facts.type),
+  GeometryAppender(RawScene& raw, const CityJsonPlace& place, SurfaceFacts facts,
+                   VertexOf vertex_of)
+      : raw_(raw),
+        place_(place),
+        facts_(facts),
+        object_type_(facts.type),
         vertex_of_(std::move(vertex_of)) {}
 
   void append(simdjson::dom::element geometry, std::string_view type);

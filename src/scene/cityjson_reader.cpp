@@ -197,7 +197,8 @@ void CityJsonReader::add_objects(object city_objects) {
   for (const auto& [id, city_object] : city_objects) {
     const CityJsonPlace place{name_, id};
     std::string_view type;
-    if (city_object.type() != simdjson::dom::element_type::OBJECT) refuse(place, "is not an object");
+    if (city_object.type() != simdjson::dom::element_type::OBJECT)
+      refuse(place, "is not an object");
     if (city_object["type"].get(type) != simdjson::SUCCESS) refuse(place, "has no \"type\"");
     const auto index = static_cast<std::uint32_t>(raw_.scene.objects.size());
     if (!object_index_.try_emplace(std::string(id), index).second) {
@@ -308,8 +309,8 @@ const LodLabel* CityJsonReader::chosen_lod(const std::vector<GeometryChoice>& al
   if (wanted_lod_.empty() || raw_.is_building[object_index] == 0) return highest;
   if (part_lod_[object_index] == kNoLod) {
     raw_.findings.add({"missing_lod", Severity::Warning, raw_.scene.objects[object_index].id, "",
-                       "the object has no LOD " + wanted_lod_, "its LOD " + highest->text +
-                       " is used"});
+                       "the object has no LOD " + wanted_lod_,
+                       "its LOD " + highest->text + " is used"});
   }
   return highest;
 }

@@ -50,8 +50,8 @@ FileFrame FileFrame::geographic(Vec3 origin, bool latitude_first, Angle turn) {
   FileFrame frame = affine(origin, {{{c, s, 0}, {-s, c, 0}, {0, 0, 1}}});
   frame.geographic_ = true;
   frame.latitude_first_ = latitude_first;
-  frame.northing_ = latitude_first ? origin_northing(origin.x, origin.y)
-                                   : origin_northing(origin.y, origin.x);
+  frame.northing_ =
+      latitude_first ? origin_northing(origin.x, origin.y) : origin_northing(origin.y, origin.x);
   return frame;
 }
 
@@ -61,8 +61,7 @@ Vec3 FileFrame::to_local(Vec3 p) const {
   const Vec3 centre = latitude_first_ ? swapped(origin_) : origin_;
   double x = 0.0, y = 0.0;
   mercator().Forward(centre.x, degrees.y, degrees.x, x, y);
-  return apply(rows_, {x / utm_scale(), y / utm_scale() - northing_,
-                       p.z - origin_.z});
+  return apply(rows_, {x / utm_scale(), y / utm_scale() - northing_, p.z - origin_.z});
 }
 
 Vec3 FileFrame::to_file(Vec3 p) const {
@@ -70,8 +69,7 @@ Vec3 FileFrame::to_file(Vec3 p) const {
   if (!geographic_) return back + origin_;
   const Vec3 centre = latitude_first_ ? swapped(origin_) : origin_;
   double latitude = 0.0, longitude = 0.0;
-  mercator().Reverse(centre.x, back.x * utm_scale(),
-                     (back.y + northing_) * utm_scale(), latitude,
+  mercator().Reverse(centre.x, back.x * utm_scale(), (back.y + northing_) * utm_scale(), latitude,
                      longitude);
   const Vec3 degrees{longitude, latitude, back.z + origin_.z};
   return latitude_first_ ? swapped(degrees) : degrees;

@@ -47,7 +47,8 @@ Projection create(PJ_CONTEXT* context, const std::string& text) {
   const bool is_formal = name.find_first_of(":+[") != std::string::npos;
   Projection crs(is_formal ? proj_create(context, name.c_str()) : nullptr);
   if (!crs || proj_is_crs(crs.get()) == 0) {
-    throw InputError("'" + text + "' is not a coordinate reference system that PROJ knows; give "
+    throw InputError("'" + text +
+                     "' is not a coordinate reference system that PROJ knows; give "
                      "one with --crs EPSG:N");
   }
   return crs;
@@ -100,7 +101,8 @@ class ToDegrees {
 
   Degrees operator()(double easting, double northing) const {
     proj_errno_reset(transformation_.get());
-    const PJ_COORD out = proj_trans(transformation_.get(), PJ_FWD, proj_coord(easting, northing, 0, 0));
+    const PJ_COORD out =
+        proj_trans(transformation_.get(), PJ_FWD, proj_coord(easting, northing, 0, 0));
     if (!(std::isfinite(out.xy.x) && std::isfinite(out.xy.y) && std::abs(out.xy.y) <= 90.0)) {
       throw InputError("(" + std::to_string(easting) + ", " + std::to_string(northing) +
                        ") is no place in " + id_ + "; is the coordinate reference system right?");
@@ -120,8 +122,8 @@ struct Line {
 
 Line geodesic(Degrees from, Degrees to) {
   double length_m = 0.0, azimuth = 0.0, azimuth_end = 0.0;
-  GeographicLib::Geodesic::WGS84().Inverse(from.latitude, from.longitude, to.latitude,
-                                           to.longitude, length_m, azimuth, azimuth_end);
+  GeographicLib::Geodesic::WGS84().Inverse(from.latitude, from.longitude, to.latitude, to.longitude,
+                                           length_m, azimuth, azimuth_end);
   // The azimuth half way, where the point asked for lies.
   const double turned = std::remainder(azimuth_end - azimuth, 360.0);
   return {azimuth + 0.5 * turned, length_m};
@@ -162,7 +164,8 @@ Georeference Crs::at(Vec3 p) const {
   where.crs = id;
   where.name = name;
   where.origin = {Angle::degrees(here.latitude), Angle::degrees(here.longitude), p.z};
-  const double quarter_error = std::remainder(eastward.azimuth_deg - 90.0 - northward.azimuth_deg, 360.0);
+  const double quarter_error =
+      std::remainder(eastward.azimuth_deg - 90.0 - northward.azimuth_deg, 360.0);
   where.grid_convergence =
       Angle::degrees(std::remainder(northward.azimuth_deg + 0.5 * quarter_error, 360.0));
   where.metres_per_unit = metres_per_unit;

@@ -12,11 +12,11 @@ namespace tenku {
 
 /// Place of the local origin, and how the grid of the file lies there.
 struct Georeference {
-  std::string crs;            ///< `EPSG:7415`; empty if only the place is known
-  std::string name;           ///< as the registry has it: `Amersfoort / RD New + NAP height`
-  Location origin;            ///< of the local origin; elevation is the file's height there
-  Angle grid_convergence;     ///< true azimuth of grid north, clockwise
-  double point_scale = 1.0;   ///< grid length / true length on the ellipsoid, at the origin
+  std::string crs;               ///< `EPSG:7415`; empty if only the place is known
+  std::string name;              ///< as the registry has it: `Amersfoort / RD New + NAP height`
+  Location origin;               ///< of the local origin; elevation is the file's height there
+  Angle grid_convergence;        ///< true azimuth of grid north, clockwise
+  double point_scale = 1.0;      ///< grid length / true length on the ellipsoid, at the origin
   double metres_per_unit = 1.0;  ///< nominal length of a unit of the grid
 };
 
@@ -29,7 +29,7 @@ struct Georeference {
 /// Error    convergence 1e-6 degrees, scale 1e-8, against the defining projections; the place
 ///          is as good as the datum transformation that PROJ finds without grids (about 1 m).
 struct Crs {
-  std::string id;    ///< `EPSG:7415`
+  std::string id;  ///< `EPSG:7415`
   std::string name;
   bool geographic = false;
   double metres_per_unit = 1.0;

@@ -18,9 +18,7 @@ Extent local_extent(const Scene& scene) {
 }
 
 /// The direction of the file that points up, in units of the file per metre.
-Vec3 file_up(const Scene& scene) {
-  return scene.frame.to_file(kZenith) - scene.frame.to_file({});
-}
+Vec3 file_up(const Scene& scene) { return scene.frame.to_file(kZenith) - scene.frame.to_file({}); }
 
 double file_height(const Scene& scene, Vec3 local) {
   const Vec3 up = file_up(scene);
@@ -56,7 +54,8 @@ void add_ground(RawScene& raw, const GroundChoice& choice) {
   raw.is_building.push_back(0);
   char height[32];
   std::snprintf(height, sizeof height, "%.3f", file_height(scene, {0.0, 0.0, z}));
-  raw.findings.add({"ground_added", Severity::Note, kGroundObjectId, std::string("height ") + height,
+  raw.findings.add({"ground_added", Severity::Note, kGroundObjectId,
+                    std::string("height ") + height,
                     is_auto ? "the city has no terrain" : "a ground was asked for",
                     "a horizontal ground was put under it; --ground none leaves it out"});
 }

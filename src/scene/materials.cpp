@@ -41,8 +41,7 @@ std::uint32_t MaterialTable::index_of(const std::string& name) {
   const auto found = named_.find(name);
   if (found == named_.end()) return kNone;
   auto& materials = raw_.scene.materials;
-  const auto [at, is_new] =
-      index_.try_emplace(name, static_cast<std::uint32_t>(materials.size()));
+  const auto [at, is_new] = index_.try_emplace(name, static_cast<std::uint32_t>(materials.size()));
   if (is_new) materials.push_back(found->second);
   return at->second;
 }

@@ -11,12 +11,12 @@ namespace tenku {
 
 /// Material of a surface about which nothing but its type is known.
 ///
-/// Source   docs/materials.md: reflectances of CIBSE Lighting Guide 10, EN 17037 annex B and EN
-///          12464-1, and usual ground albedos.
+/// Source   docs/materials.md has the values and where each comes from.
 Material default_material(SurfaceType type);
 
 /// Named materials of a TOML file; `cli.md` has the keys.
-/// @throws InputError  naming file and line: not TOML, a key that is not known, a value out of range
+/// @throws InputError  naming file and line: not TOML, a key that is not known, a value out of
+/// range
 std::map<std::string, Material> read_materials(const std::filesystem::path& path);
 
 /// Sets the scene's materials and the material of each surface. The most specific name wins: object

@@ -21,7 +21,8 @@ std::optional<Rgb> read_reflectance(TextCursor& cursor, const std::string& file,
   Rgb kd = Rgb::grey(*red);
   if (!cursor.line_is_done()) kd.g = cursor.number();
   if (!cursor.line_is_done()) kd.b = cursor.number();
-  const Rgb clamped{std::clamp(kd.r, 0.0, kMostReflectance), std::clamp(kd.g, 0.0, kMostReflectance),
+  const Rgb clamped{std::clamp(kd.r, 0.0, kMostReflectance),
+                    std::clamp(kd.g, 0.0, kMostReflectance),
                     std::clamp(kd.b, 0.0, kMostReflectance)};
   if (!(clamped == kd)) {
     raw.findings.add({"reflectance_clamped", Severity::Note, "",
@@ -51,8 +52,8 @@ void read_mtl(std::string_view text, const std::string& file, RawScene& raw) {
       current->material.reflectance = *kd;
       current->given = true;
     } else if (keyword.starts_with("map_Kd")) {
-      raw.findings.add({"texture_ignored", Severity::Note, "", file,
-                        "textures are not read", "the plain reflectance is used"});
+      raw.findings.add({"texture_ignored", Severity::Note, "", file, "textures are not read",
+                        "the plain reflectance is used"});
     }
   }
 }

@@ -14,18 +14,18 @@ struct NameRow {
 };
 
 constexpr std::array<NameRow, 24> kWords{{
-    {"ground", SurfaceType::Ground},    {"terrain", SurfaceType::Ground},
-    {"wall", SurfaceType::Wall},        {"walls", SurfaceType::Wall},
-    {"facade", SurfaceType::Wall},      {"roof", SurfaceType::Roof},
-    {"roofs", SurfaceType::Roof},       {"ceil", SurfaceType::Ceiling},
-    {"ceiling", SurfaceType::Ceiling},  {"ceilings", SurfaceType::Ceiling},
-    {"floor", SurfaceType::Floor},      {"floors", SurfaceType::Floor},
-    {"window", SurfaceType::Window},    {"windows", SurfaceType::Window},
-    {"glass", SurfaceType::Window},     {"glazing", SurfaceType::Window},
-    {"door", SurfaceType::Door},        {"doors", SurfaceType::Door},
-    {"road", SurfaceType::Road},        {"street", SurfaceType::Road},
-    {"water", SurfaceType::Water},      {"vegetation", SurfaceType::Vegetation},
-    {"tree", SurfaceType::Vegetation},  {"trees", SurfaceType::Vegetation},
+    {"ground", SurfaceType::Ground},   {"terrain", SurfaceType::Ground},
+    {"wall", SurfaceType::Wall},       {"walls", SurfaceType::Wall},
+    {"facade", SurfaceType::Wall},     {"roof", SurfaceType::Roof},
+    {"roofs", SurfaceType::Roof},      {"ceil", SurfaceType::Ceiling},
+    {"ceiling", SurfaceType::Ceiling}, {"ceilings", SurfaceType::Ceiling},
+    {"floor", SurfaceType::Floor},     {"floors", SurfaceType::Floor},
+    {"window", SurfaceType::Window},   {"windows", SurfaceType::Window},
+    {"glass", SurfaceType::Window},    {"glazing", SurfaceType::Window},
+    {"door", SurfaceType::Door},       {"doors", SurfaceType::Door},
+    {"road", SurfaceType::Road},       {"street", SurfaceType::Road},
+    {"water", SurfaceType::Water},     {"vegetation", SurfaceType::Vegetation},
+    {"tree", SurfaceType::Vegetation}, {"trees", SurfaceType::Vegetation},
 }};
 
 SurfaceType type_of_word(const std::string& word) {

@@ -74,8 +74,7 @@ void ObjReader::read_statement() {
     read_libraries();
   } else {
     raw_.findings.add({"ignored_statement", Severity::Note, "", file_,
-                       "'" + std::string(keyword.substr(0, 20)) + "' and the like are ignored",
-                       "only polygons are read"});
+                       quoted(keyword) + " and the like are ignored", "only polygons are read"});
   }
 }
 
@@ -96,7 +95,7 @@ std::uint32_t ObjReader::vertex_index(std::string_view word) {
   std::string_view left = word;
   const auto index = leading_integer(left);
   if (!index || (!left.empty() && left[0] != '/')) {
-    cursor_.refuse("'" + std::string(word.substr(0, 40)) + "' is not a vertex of a face");
+    cursor_.refuse(quoted(word) + " is not a vertex of a face");
   }
   const long long at = *index < 0 ? count + *index : *index - 1;
   if (at < 0 || at >= count) {
@@ -143,8 +142,7 @@ void ObjReader::choose_object() {
   facts_.type = material_type_;
   if (facts_.type == SurfaceType::Unknown) facts_.type = type_by_name(group_name_);
   if (facts_.type == SurfaceType::Unknown) facts_.type = type_by_name(object_name_);
-  raw_.scene.has_terrain |=
-      facts_.type == SurfaceType::Ground || facts_.type == SurfaceType::Road;
+  raw_.scene.has_terrain |= facts_.type == SurfaceType::Ground || facts_.type == SurfaceType::Road;
   object_is_chosen_ = true;
 }
 

@@ -8,9 +8,9 @@
 namespace tenku {
 namespace {
 
-constexpr double kFar_m = 20000.0;        // float has 2 mm at this distance
-constexpr double kHighest_m = 10000.0;    // no ground is higher; heights beyond are offsets
-constexpr double kDegreesBeyond = 2.0;    // tolerance about the area of use of a CRS
+constexpr double kFar_m = 20000.0;      // float has 2 mm at this distance
+constexpr double kHighest_m = 10000.0;  // no ground is higher; heights beyond are offsets
+constexpr double kDegreesBeyond = 2.0;  // tolerance about the area of use of a CRS
 
 Extent extent_of(const std::vector<Vec3>& points) {
   Extent box{points.front(), points.front()};
@@ -51,11 +51,11 @@ FileFrame frame_of(const GridMap& map, Vec3 grid_origin, Angle clockwise, double
 
 bool contains(const Crs& crs, double latitude, double longitude) {
   const bool wraps = crs.west > crs.east;  // across the date line
-  const bool between = wraps ? longitude >= crs.west - kDegreesBeyond ||
-                                   longitude <= crs.east + kDegreesBeyond
-                             : longitude >= crs.west - kDegreesBeyond &&
-                                   longitude <= crs.east + kDegreesBeyond;
-  return between && latitude >= crs.south - kDegreesBeyond && latitude <= crs.north + kDegreesBeyond;
+  const bool between =
+      wraps ? longitude >= crs.west - kDegreesBeyond || longitude <= crs.east + kDegreesBeyond
+            : longitude >= crs.west - kDegreesBeyond && longitude <= crs.east + kDegreesBeyond;
+  return between && latitude >= crs.south - kDegreesBeyond &&
+         latitude <= crs.north + kDegreesBeyond;
 }
 
 bool is_latitude_first(const Crs& crs, Vec3 centre, RawScene& raw) {
@@ -65,9 +65,9 @@ bool is_latitude_first(const Crs& crs, Vec3 centre, RawScene& raw) {
                      ") is no place in " + crs.id + " (" + crs.name + ")");
   }
   const bool latitude_first = first && !second;
-  raw.findings.add({"degrees", Severity::Note, "", "",
-                    "the coordinates are degrees (" + crs.id + ")",
-                    latitude_first ? "read as latitude, longitude" : "read as longitude, latitude"});
+  raw.findings.add(
+      {"degrees", Severity::Note, "", "", "the coordinates are degrees (" + crs.id + ")",
+       latitude_first ? "read as latitude, longitude" : "read as longitude, latitude"});
   return latitude_first;
 }
 
@@ -97,9 +97,8 @@ Vec3 grid_centre(const RawScene& raw, const GridMap& map) {
 void place_projected(RawScene& raw, const Crs& crs, const GridMap& map, Angle rotate) {
   const Vec3 origin = grid_centre(raw, map);
   const Georeference where = crs.at(origin);
-  raw.scene.frame =
-      frame_of(map, origin, where.grid_convergence + rotate,
-               where.metres_per_unit / where.point_scale, where.metres_per_unit);
+  raw.scene.frame = frame_of(map, origin, where.grid_convergence + rotate,
+                             where.metres_per_unit / where.point_scale, where.metres_per_unit);
   raw.scene.georeference = where;
   const Location& at = where.origin;
   if (!contains(crs, at.latitude.in_degrees(), at.longitude.in_degrees())) {

@@ -3,8 +3,7 @@
 namespace tenku {
 
 void FindingCounter::add(const Finding& finding) {
-  const auto [at, is_new] =
-      index_.try_emplace({finding.code, finding.object}, findings_.size());
+  const auto [at, is_new] = index_.try_emplace({finding.code, finding.object}, findings_.size());
   if (is_new) {
     findings_.push_back(finding);
   } else {

@@ -41,10 +41,10 @@ inline constexpr GridAxes kYUpAxes{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}, {}};
 struct RawScene {
   Scene scene;
   FindingCounter findings;
-  std::string crs;                    ///< as the file says; empty if it says none
+  std::string crs;  ///< as the file says; empty if it says none
   GridAxes axes;
-  bool axes_are_given = false;        ///< the file says how its axes lie
-  std::optional<Location> place;      ///< of the file's origin, if the file gives that and no CRS
+  bool axes_are_given = false;    ///< the file says how its axes lie
+  std::optional<Location> place;  ///< of the file's origin, if the file gives that and no CRS
   std::vector<std::uint8_t> is_building;
   std::vector<std::uint8_t> is_inner_shell;
 

@@ -29,7 +29,8 @@ Format format_of(const fs::path& path) {
   if (name.ends_with(".gz")) name.resize(name.size() - 3);
   if (name.ends_with(".json") || name.ends_with(".jsonl")) return Format::CityJson;
   if (name.ends_with(".obj")) return Format::Obj;
-  throw InputError(path.string() + ": the format is not known by this name; scenes are .city.json, "
+  throw InputError(path.string() +
+                   ": the format is not known by this name; scenes are .city.json, "
                    ".city.jsonl or .obj, or one of them with .gz");
 }
 
@@ -68,8 +69,7 @@ void mark_buildings(RawScene& raw) {
 void count_obj_triangles(Scene& scene) {
   if (scene.format != "OBJ") return;
   const std::size_t rings = scene.surfaces.first_vertex.size() - 1;
-  scene.lod_triangles[""] =
-      scene.surfaces.vertex.size() + 2 * rings - 4 * scene.surfaces.size();
+  scene.lod_triangles[""] = scene.surfaces.vertex.size() + 2 * rings - 4 * scene.surfaces.size();
 }
 
 void repair(RawScene& raw, Progress& progress) {
@@ -95,8 +95,8 @@ GroundChoice GroundChoice::parse(const std::string& text) {
 
 Scene read_scene(const fs::path& path, const ReadOptions& options, Progress& progress) {
   progress.begin("reading the scene", 0);
-  const auto named = options.materials ? read_materials(*options.materials)
-                                       : std::map<std::string, Material>{};
+  const auto named =
+      options.materials ? read_materials(*options.materials) : std::map<std::string, Material>{};
   RawScene raw = read_raw(path, options, progress);
   refuse_empty(raw, path, "");
   count_obj_triangles(raw.scene);

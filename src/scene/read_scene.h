@@ -27,14 +27,14 @@ enum class UpAxis { ByFormat, Y, Z };
 
 /// How to read what the file does not say itself.
 struct ReadOptions {
-  std::string building_lod;       ///< empty: the highest of each object; or `1`, `2.2`
-  Angle rotate;                   ///< turns the model clockwise, seen from above
-  double scale = 1.0;             ///< metres (or units of the CRS) per unit of the file
+  std::string building_lod;  ///< empty: the highest of each object; or `1`, `2.2`
+  Angle rotate;              ///< turns the model clockwise, seen from above
+  double scale = 1.0;        ///< metres (or units of the CRS) per unit of the file
   UpAxis up = UpAxis::ByFormat;
-  std::string crs;                ///< `EPSG:N`, in place of what the file says
+  std::string crs;  ///< `EPSG:N`, in place of what the file says
   GroundChoice ground;
   std::optional<std::filesystem::path> materials;  ///< TOML
-  std::optional<Location> site;   ///< of the local origin, in place of what the file says
+  std::optional<Location> site;  ///< of the local origin, in place of what the file says
 };
 
 /// Reads a scene: CityJSON 1.0 to 2.0 (`.json`), CityJSONSeq (`.jsonl`), Wavefront OBJ with MTL

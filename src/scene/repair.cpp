@@ -96,9 +96,8 @@ bool put_tidied(SurfaceRewriter& out, const std::vector<std::uint32_t>& ring) {
 
 bool has_three_distinct(const std::vector<std::uint32_t>& ring) {
   const auto other = std::find_if(ring.begin(), ring.end(), [&](auto v) { return v != ring[0]; });
-  return other != ring.end() && std::any_of(other, ring.end(), [&](auto v) {
-           return v != ring[0] && v != *other;
-         });
+  return other != ring.end() &&
+         std::any_of(other, ring.end(), [&](auto v) { return v != ring[0] && v != *other; });
 }
 
 bool is_flat(const Scene& scene, std::size_t s) {
@@ -191,8 +190,8 @@ void drop_flat_surfaces(RawScene& raw) {
     flat[s] = is_flat(raw.scene, s) ? 1 : 0;
     if (flat[s] == 0) continue;
     any = true;
-    raw.findings.add(about(raw, s, "zero_area_face", Severity::Note, "faces have no area",
-                           "left out"));
+    raw.findings.add(
+        about(raw, s, "zero_area_face", Severity::Note, "faces have no area", "left out"));
   }
   if (!any) return;
   std::size_t ring_end = 0, vertex_end = 0;
@@ -224,10 +223,12 @@ void check_polygons(RawScene& raw) {
     const PolygonShape shape = shape_of(raw.scene, s);
     if (shape.off_plane_m > 0.1) {
       raw.findings.add(about(raw, s, "nonplanar_over_10cm", Severity::Warning,
-                             "faces are more than 10 cm off their plane", "triangulated as they are"));
+                             "faces are more than 10 cm off their plane",
+                             "triangulated as they are"));
     } else if (shape.off_plane_m > 0.01) {
       raw.findings.add(about(raw, s, "nonplanar_over_1cm", Severity::Note,
-                             "faces are more than 1 cm off their plane", "triangulated as they are"));
+                             "faces are more than 1 cm off their plane",
+                             "triangulated as they are"));
     }
     if (!shape.is_simple) {
       raw.findings.add(about(raw, s, "self_intersecting_ring", Severity::Warning,

@@ -15,7 +15,8 @@ void tidy_rings(RawScene& raw);
 /// Drops surfaces all of whose vertices lie within a micrometre of one line.
 void drop_flat_surfaces(RawScene& raw);
 
-/// Closed shells of solids and closed buildings that are inside out are turned; open shells are told.
+/// Closed shells of solids and closed buildings that are inside out are turned; open shells are
+/// told.
 void orient_shells(RawScene& raw);
 
 /// Gives building surfaces without a type one by their normal.

@@ -78,9 +78,9 @@ struct Scene {
   std::map<std::string, std::size_t> lod_triangles;  ///< all levels in the file, also unused ones
   FileFrame frame;
   std::optional<Georeference> georeference;
-  Extent extent;            ///< of what was read, without the ground that tenku gives
-  bool is_city = false;     ///< has buildings of a city model, or a georeference of its own
-  bool has_terrain = false; ///< something in the file is the ground
+  Extent extent;             ///< of what was read, without the ground that tenku gives
+  bool is_city = false;      ///< has buildings of a city model, or a georeference of its own
+  bool has_terrain = false;  ///< something in the file is the ground
   std::vector<Finding> findings;
 };
 

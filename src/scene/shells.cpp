@@ -15,8 +15,8 @@ struct Run {
 enum class Closure { Closed, Misoriented, Open };
 
 struct HalfEdge {
-  std::uint64_t key;      ///< both vertices, the smaller one first
-  std::int32_t direction; ///< +1 from the smaller to the larger
+  std::uint64_t key;       ///< both vertices, the smaller one first
+  std::int32_t direction;  ///< +1 from the smaller to the larger
 };
 
 void add_half_edges(const Surfaces& surfaces, std::size_t s, std::vector<HalfEdge>& edges) {

@@ -9,11 +9,11 @@ namespace tenku {
 
 enum class SurfaceType : std::uint8_t {
   Unknown,
-  Ground,      ///< terrain, land use, ground surfaces of buildings, the ground given by tenku
+  Ground,  ///< terrain, land use, ground surfaces of buildings, the ground given by tenku
   Wall,
   Roof,
-  Ceiling,     ///< outer and interior ceilings, undersides
-  Floor,       ///< outer and interior floors
+  Ceiling,  ///< outer and interior ceilings, undersides
+  Floor,    ///< outer and interior floors
   Window,
   Door,
   Road,

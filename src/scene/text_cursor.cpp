@@ -58,14 +58,20 @@ double TextCursor::number() {
   const std::string_view text = word();
   const std::optional<double> value = finite_number(text);
   if (!value) {
-    refuse(text.empty() ? "a number is missing"
-                        : "'" + std::string(text.substr(0, 40)) + "' is not a finite number");
+    refuse(text.empty() ? "a number is missing" : quoted(text) + " is not a finite number");
   }
   return *value;
 }
 
 void TextCursor::refuse(const std::string& what) const {
   throw InputError(file_ + ", line " + std::to_string(line_) + ": " + what);
+}
+
+std::string quoted(std::string_view word) {
+  std::string text(1, '\'');
+  text.append(word.substr(0, 40));
+  text.push_back('\'');
+  return text;
 }
 
 std::optional<long long> leading_integer(std::string_view& word) {

@@ -38,6 +38,9 @@ class TextCursor {
   std::size_t line_ = 1;
 };
 
+/// `word` between quotation marks for a message, cut at 40 letters.
+std::string quoted(std::string_view word);
+
 /// A whole number at the start of `word`, which is shortened by it.
 std::optional<long long> leading_integer(std::string_view& word);
 

@@ -19,9 +19,9 @@ namespace tenku {
 struct TriangleSoup {
   std::vector<Vec3> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::uint32_t> object;       ///< index into `Scene::objects`
+  std::vector<std::uint32_t> object;  ///< index into `Scene::objects`
   std::vector<SurfaceType> surface_type;
-  std::vector<std::uint32_t> material;     ///< index into `Scene::materials`
+  std::vector<std::uint32_t> material;  ///< index into `Scene::materials`
 
   std::size_t size() const { return triangles.size(); }
 };

@@ -192,8 +192,7 @@ PolygonShape shape_of(const Scene& scene, std::size_t surface) {
     }
     const std::vector<Point2> flat = flat_ring(ring, plane, scene.vertices);
     if (flat.size() == 4 && is_convex(flat)) continue;
-    shape.is_simple =
-        shape.is_simple && CGAL::is_simple_2(flat.begin(), flat.end(), Kernel());
+    shape.is_simple = shape.is_simple && CGAL::is_simple_2(flat.begin(), flat.end(), Kernel());
   }
   return shape;
 }
@@ -211,6 +210,7 @@ void triangulate_polygon(const Surfaces& surfaces, std::size_t surface, std::vec
     return split_quad(outer, vertices, triangles);
   }
   Delaunay mesh = mesh_of(surfaces, surface, plane, vertices);
+  if (mesh.dimension() < 2) return;  // goes to and fro on a line: nothing to fill
   mark_nesting(mesh);
   for (auto face : mesh.finite_face_handles()) {
     if (face->info().level % 2 == 0) continue;

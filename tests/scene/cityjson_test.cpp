@@ -61,8 +61,7 @@ TEST(CityJson, SemanticsGoToTheirSurfaces) {
   const std::string semantics =
       R"(,"semantics":{"surfaces":[{"type":"Window"},{"type":"ClosureSurface"},{"type":"+Odd"}],)"
       R"("values":[[null,0,1,2,null,0]]})";
-  const Scene scene =
-      read_box(document(object("b", "Building", solid("3", kBoxShell, semantics))));
+  const Scene scene = read_box(document(object("b", "Building", solid("3", kBoxShell, semantics))));
   ASSERT_EQ(scene.surfaces.size(), 5U);  // a closure surface is not there
   EXPECT_EQ(scene.surfaces.type[0], SurfaceType::Ground);
   EXPECT_EQ(scene.surfaces.type[1], SurfaceType::Window);
@@ -88,9 +87,8 @@ TEST(CityJson, OpenShellIsToldWithItsObject) {
 }
 
 TEST(CityJson, HighestLodIsReadUnlessAnotherIsAskedFor) {
-  const std::string both =
-      solid("1.2", kBoxShell) + "," + solid("1.3", kBoxShell) + "," +
-      R"({"type":"MultiSurface","lod":"2.2","boundaries":[[[0,1,2,3]]]})";
+  const std::string both = solid("1.2", kBoxShell) + "," + solid("1.3", kBoxShell) + "," +
+                           R"({"type":"MultiSurface","lod":"2.2","boundaries":[[[0,1,2,3]]]})";
   const std::string text = document(object("b", "Building", both));
   const Scene highest = read_box(text);
   EXPECT_EQ(highest.surfaces.size(), 1U);
@@ -105,20 +103,17 @@ TEST(CityJson, HighestLodIsReadUnlessAnotherIsAskedFor) {
 }
 
 TEST(CityJson, FootprintIsLeftOutWhereThePartHasMore) {
-  const std::string footprint =
-      R"({"type":"MultiSurface","lod":"0","boundaries":[[[0,1,2,3]]]})";
-  const Scene scene = read_box(document(
-      object("b", "Building", footprint, R"("children":["p"],)") + "," +
-      object("p", "BuildingPart", solid("2.2", kBoxShell), R"("parents":["b"],)")));
+  const std::string footprint = R"({"type":"MultiSurface","lod":"0","boundaries":[[[0,1,2,3]]]})";
+  const Scene scene = read_box(
+      document(object("b", "Building", footprint, R"("children":["p"],)") + "," +
+               object("p", "BuildingPart", solid("2.2", kBoxShell), R"("parents":["b"],)")));
   EXPECT_EQ(scene.surfaces.size(), 6U);
   EXPECT_EQ(scene.objects.at(1).parent, 0U);
 }
 
 TEST(CityJson, LodMayBeANumberAsInVersion1) {
-  const std::string geometry =
-      R"({"type":"MultiSurface","lod":2,"boundaries":[[[0,1,2,3]]]})";
-  EXPECT_EQ(read_box(document(object("r", "Road", geometry))).lods,
-            std::vector<std::string>{"2"});
+  const std::string geometry = R"({"type":"MultiSurface","lod":2,"boundaries":[[[0,1,2,3]]]})";
+  EXPECT_EQ(read_box(document(object("r", "Road", geometry))).lods, std::vector<std::string>{"2"});
 }
 
 TEST(CityJson, HoleIsNotFilled) {
@@ -127,8 +122,7 @@ TEST(CityJson, HoleIsNotFilled) {
       "[3000,3000,0],[3000,6000,0],[6000,6000,0],[6000,3000,0]";
   const std::string roof =
       R"({"type":"MultiSurface","lod":"2","boundaries":[[[0,1,2,3],[4,5,6,7]]]})";
-  const TriangleSoup soup =
-      flatten(read_box(document(object("b", "Building", roof), vertices)));
+  const TriangleSoup soup = flatten(read_box(document(object("b", "Building", roof), vertices)));
   EXPECT_EQ(soup.size(), 8U);
   EXPECT_NEAR(measures(soup).area, 81.0 - 9.0, 1e-9);
 }
@@ -162,8 +156,7 @@ TEST(CityJsonSeq, EachFeatureHasItsOwnVertices) {
       R"("CityObjects":{},"vertices":[]})";
   const auto feature = [](const std::string& id, const std::string& x) {
     return R"({"type":"CityJSONFeature","id":")" + id + R"(","CityObjects":{)" +
-           object(id, "Building",
-                  R"({"type":"MultiSurface","lod":"2","boundaries":[[[0,1,2]]]})") +
+           object(id, "Building", R"({"type":"MultiSurface","lod":"2","boundaries":[[[0,1,2]]]})") +
            "},\"vertices\":[[" + x + ",0,0],[1,0,0],[0,1,0]]}";
   };
   const Scene scene = read_text(
@@ -181,7 +174,8 @@ TEST(CityJson, GroundIsGivenToACityWithoutTerrainOnly) {
   EXPECT_EQ(city.objects.back().id, kGroundObjectId);
   EXPECT_EQ(count_of(city, "ground_added"), 1U);
   EXPECT_NEAR(city.vertices.back().z, 30.0, 1e-12);
-  const Scene terrain = read_text("a.json", document(building + "," + object("t", "TINRelief", flat)));
+  const Scene terrain =
+      read_text("a.json", document(building + "," + object("t", "TINRelief", flat)));
   EXPECT_EQ(count_of(terrain, "ground_added"), 0U);
   const Scene furniture = read_text("a.json", document(object("c", "CityFurniture", flat)));
   EXPECT_EQ(count_of(furniture, "ground_added"), 0U);

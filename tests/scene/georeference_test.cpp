@@ -1,10 +1,11 @@
+#include "scene/georeference.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/error.h"
 #include "scene/file_frame.h"
-#include "scene/georeference.h"
 #include "tests/scene/scene_files.h"
 
 namespace tenku {
@@ -73,18 +74,19 @@ TEST(Crs, AllSpellingsAreUnderstood) {
 std::string triangle_at(const std::string& crs, const std::string& points) {
   return R"({"type":"CityJSON","version":"2.0","metadata":{"referenceSystem":")" + crs +
          R"("},"CityObjects":{"b":{"type":"Building","geometry":[{"type":"MultiSurface","lod":"1",)"
-         R"("boundaries":[[[0,1,2]]]}]}},"vertices":[)" + points + "]}";
+         R"("boundaries":[[[0,1,2]]]}]}},"vertices":[)" +
+         points + "]}";
 }
 
-// Lengths of 0.01 degrees by the radii of curvature of GRS 80 (e^2 = 0.00669438): along the meridian
-// M at 35.685 N, along the parallel N cos(lat) at 35.68 N.
+// Lengths of 0.01 degrees by the radii of curvature of GRS 80 (e^2 = 0.00669438): along the
+// meridian M at 35.685 N, along the parallel N cos(lat) at 35.68 N.
 TEST(Georeference, DegreesBecomeLocalMetresInEitherOrder) {
   const std::string latitude_first = "[35.68,139.76,3.5],[35.69,139.76,3.5],[35.68,139.77,3.5]";
   const std::string longitude_first = "[139.76,35.68,3.5],[139.76,35.69,3.5],[139.77,35.68,3.5]";
   for (const std::string& points : {latitude_first, longitude_first}) {
-    const Scene scene = read_text(
-        "a.json", triangle_at("https://www.opengis.net/def/crs/EPSG/0/6697", points),
-        without_ground());
+    const Scene scene =
+        read_text("a.json", triangle_at("https://www.opengis.net/def/crs/EPSG/0/6697", points),
+                  without_ground());
     ASSERT_TRUE(scene.georeference.has_value());
     const Vec3 a = scene.vertices[0], b = scene.vertices[1], c = scene.vertices[2];
     EXPECT_NEAR(length(b - a), 1109.5317, 0.001);
@@ -106,6 +108,27 @@ TEST(Georeference, LocalNorthIsTrueNorthAndLengthsAreTrue) {
   EXPECT_LT(at.grid_convergence.in_degrees(), -0.8);  // 115 km west of the central meridian
   EXPECT_NEAR(length(north), 100.0 / at.point_scale, 1e-9);
   EXPECT_NEAR(length(scene.frame.to_file(scene.vertices[2]) - Vec3{78700, 457900, 0}), 0.0, 1e-6);
+}
+
+// What FileFrame's header says of using the origin's scale and convergence 5 km away.
+TEST(Georeference, ScaleAndConvergenceChangeByLessThanTheHeaderSays) {
+  struct Site {
+    const char* crs;
+    Vec3 origin;
+  };
+  for (const auto& [crs, origin] :
+       std::initializer_list<Site>{{"EPSG:28992", {80000, 455000, 0}},
+                                   {"EPSG:2056", {2683000, 1248000, 0}},
+                                   {"EPSG:6677", {-8800, -36700, 0}},
+                                   {"EPSG:31255", {70700, 352400, 0}}}) {
+    const Crs grid = Crs::parse(crs);
+    const Georeference here = grid.at(origin);
+    for (const Vec3 step : {Vec3{5000, 0, 0}, Vec3{0, 5000, 0}, Vec3{-5000, 0, 0}}) {
+      const Georeference there = grid.at(origin + step);
+      EXPECT_NEAR(there.point_scale / here.point_scale, 1.0, 1.2e-5) << crs;
+      EXPECT_NEAR((there.grid_convergence - here.grid_convergence).in_degrees(), 0.0, 0.06) << crs;
+    }
+  }
 }
 
 TEST(Georeference, OptionsOverrideTheFile) {

@@ -18,8 +18,8 @@ TEST(Obj, PlainMeshKeepsItsCoordinatesAndHasNoGround) {
 }
 
 TEST(Obj, IndicesMayBeNegativeAndHaveTextureAndNormal) {
-  const Scene scene = read_text("a.obj", std::string(kSquare) +
-                                             "vt 0 0\nvn 0 0 1\nf -4/1/1 -3//1 -2/1 \\\n -1\n");
+  const Scene scene =
+      read_text("a.obj", std::string(kSquare) + "vt 0 0\nvn 0 0 1\nf -4/1/1 -3//1 -2/1 \\\n -1\n");
   EXPECT_EQ(scene.surfaces.outer_ring(0).size(), 4U);
 }
 
@@ -64,11 +64,13 @@ TEST(Obj, ObjectsAndGroupsBecomeObjects) {
 
 TEST(Obj, TypeComesFromMaterialOrGroupName) {
   for (const auto& [name, type] : std::initializer_list<std::pair<const char*, SurfaceType>>{
-           {"ceil", SurfaceType::Ceiling},  {"Floor_Tiles", SurfaceType::Floor},
-           {"backWall", SurfaceType::Wall}, {"glass.001", SurfaceType::Window},
-           {"wallpaper", SurfaceType::Unknown}, {"mat1", SurfaceType::Unknown}}) {
-    const Scene scene = read_text(
-        "a.obj", std::string(kSquare) + "usemtl " + name + "\nf 1 2 3\n");
+           {"ceil", SurfaceType::Ceiling},
+           {"Floor_Tiles", SurfaceType::Floor},
+           {"backWall", SurfaceType::Wall},
+           {"glass.001", SurfaceType::Window},
+           {"wallpaper", SurfaceType::Unknown},
+           {"mat1", SurfaceType::Unknown}}) {
+    const Scene scene = read_text("a.obj", std::string(kSquare) + "usemtl " + name + "\nf 1 2 3\n");
     EXPECT_EQ(scene.surfaces.type[0], type) << name;
   }
 }
@@ -77,7 +79,8 @@ TEST(Obj, KdIsTheReflectanceAndIsBroughtDownTo09) {
   const TemporaryFolder folder;
   folder.write("my file.mtl", "newmtl red\nKd 1.0 0.2 0.1\nTr 0.5\nnewmtl b\nKd 0.4 0.4 0.4\n");
   const Scene scene = read(folder.write(
-      "a.obj", std::string(kSquare) + "mtllib my file.mtl\nusemtl red\nf 1 2 3\nusemtl b\nf 1 3 4\n"));
+      "a.obj",
+      std::string(kSquare) + "mtllib my file.mtl\nusemtl red\nf 1 2 3\nusemtl b\nf 1 3 4\n"));
   const Material& red = scene.materials[scene.surfaces.material[0]];
   EXPECT_EQ(red.name, "red");
   EXPECT_EQ(red.reflectance, (Rgb{0.9, 0.2, 0.1}));
@@ -88,10 +91,10 @@ TEST(Obj, KdIsTheReflectanceAndIsBroughtDownTo09) {
 
 TEST(Obj, KeyholePolygonKeepsItsHole) {
   // The hole is tied to the outer ring by an edge that is passed there and back.
-  const Scene scene = read_text(
-      "a.obj",
-      "v 0 0 0\nv 3 0 0\nv 3 3 0\nv 0 3 0\nv 1 1 0\nv 1 2 0\nv 2 2 0\nv 2 1 0\n"
-      "f 1 2 3 4 1 5 6 7 8 5\n");
+  const Scene scene =
+      read_text("a.obj",
+                "v 0 0 0\nv 3 0 0\nv 3 3 0\nv 0 3 0\nv 1 1 0\nv 1 2 0\nv 2 2 0\nv 2 1 0\n"
+                "f 1 2 3 4 1 5 6 7 8 5\n");
   EXPECT_NEAR(measures(flatten(scene)).area, 8.0, 1e-12);
 }
 
