@@ -136,12 +136,14 @@ std::string hour_lines(const SunPathDiagram& diagram) {
 std::string instant_mark(const SunPathDiagram& diagram) {
   if (!diagram.instant || !is_up(*diagram.instant)) return {};
   const SunPathPlace p = sun_path_place(*diagram.instant, diagram.projection);
-  const bool right = p.x < 0.5;  // the label stays within the horizon
+  const auto sun_at = [](double x, double y) {
+    return "<circle class=\"sun\" cx=\"" + coordinate(kCentreX + kRadius * x) + "\" cy=\"" +
+           coordinate(kCentreY - kRadius * y) + "\" r=\"9\"/>\n";
+  };
+  // Its name stands in the corner, where no line passes.
   return "<path class=\"beam\" d=\"M" + at(0.0, 0.0) + "L" + at(p.x, p.y) + "\"/>\n" +
-         "<circle class=\"sun\" cx=\"" + coordinate(kCentreX + kRadius * p.x) + "\" cy=\"" +
-         coordinate(kCentreY - kRadius * p.y) + "\" r=\"9\"/>\n" +
-         text_at(p.x + (right ? 0.03 : -0.03), p.y + 0.11, diagram.instant_label, "sunlabel halo",
-                 right ? "start" : "end");
+         sun_at(p.x, p.y) + sun_at(-1.15, 1.12) +
+         text_at(-1.09, 1.12, diagram.instant_label, "sunlabel", "start");
 }
 
 constexpr const char* kStyle =
