@@ -8,7 +8,7 @@ namespace tenku {
 namespace {
 
 constexpr double kRadius = 250.0, kCentreX = 310.0, kCentreY = 310.0;  // user units
-constexpr double kWidth = 680.0, kHeight = 620.0;
+constexpr double kWidth = 700.0, kHeight = 620.0;
 
 std::string at(double x, double y) {
   return coordinate(kCentreX + kRadius * x) + " " + coordinate(kCentreY - kRadius * y);
@@ -46,7 +46,8 @@ std::string polyline(const std::vector<SunPathPoint>& points, SunPathProjection 
   std::string path;
   for (const SunPathPoint p : points) {
     const SunPathPlace place = sun_path_place(p, projection);
-    path += (path.empty() ? "M" : "L") + at(place.x, place.y);
+    path += path.empty() ? 'M' : 'L';
+    path += at(place.x, place.y);
   }
   return "<path class=\"" + std::string(style) + "\" d=\"" + path + "\"/>\n";
 }
@@ -87,7 +88,7 @@ std::string spokes(const std::vector<double>& taken) {
     svg += "<path class=\"ring\" d=\"M" + at(0.0, 0.0) + "L" + at(x, y) + "\"/>\n";
     const bool free = !is_near(a, taken, 0.15);
     if (azimuth % 90 == 0) {
-      const double r = free ? 1.09 : 1.34;
+      const double r = free ? 1.09 : 1.45;
       const char letter = "NESW"[azimuth / 90];
       svg += text_at(r * x, r * y, std::string(1, letter), "cardinal", "middle");
     } else if (free) {
@@ -135,12 +136,14 @@ std::string hour_lines(const SunPathDiagram& diagram) {
 std::string instant_mark(const SunPathDiagram& diagram) {
   if (!diagram.instant || !is_up(*diagram.instant)) return {};
   const SunPathPlace p = sun_path_place(*diagram.instant, diagram.projection);
-  const bool right = p.x < 0.35;
+  const auto sun_at = [](double x, double y) {
+    return "<circle class=\"sun\" cx=\"" + coordinate(kCentreX + kRadius * x) + "\" cy=\"" +
+           coordinate(kCentreY - kRadius * y) + "\" r=\"9\"/>\n";
+  };
+  // Its name stands in the corner, where no line passes.
   return "<path class=\"beam\" d=\"M" + at(0.0, 0.0) + "L" + at(p.x, p.y) + "\"/>\n" +
-         "<circle class=\"sun\" cx=\"" + coordinate(kCentreX + kRadius * p.x) + "\" cy=\"" +
-         coordinate(kCentreY - kRadius * p.y) + "\" r=\"9\"/>\n" +
-         text_at(p.x + (right ? 0.06 : -0.06), p.y, diagram.instant_label, "sunlabel halo",
-                 right ? "start" : "end");
+         sun_at(p.x, p.y) + sun_at(-1.15, 1.12) +
+         text_at(-1.09, 1.12, diagram.instant_label, "sunlabel", "start");
 }
 
 constexpr const char* kStyle =
