@@ -26,7 +26,7 @@ struct DirectionRow {
   Vec3 direction;
 };
 
-DirectionRow read_direction(const CsvTable& csv, std::size_t i) {
+DirectionRow read_direction(const CsvInput& csv, std::size_t i) {
   const double azimuth = csv.number(i, "azimuth_deg"), altitude = csv.number(i, "altitude_deg");
   if (!(altitude >= -90.0 && altitude <= 90.0)) {
     throw InputError(
@@ -37,7 +37,7 @@ DirectionRow read_direction(const CsvTable& csv, std::size_t i) {
 }
 
 std::vector<DirectionRow> read_directions(const std::string& path) {
-  const CsvTable csv(read_whole_file(path), path == "-" ? "standard input" : path);
+  const CsvInput csv(read_whole_file(path), path == "-" ? "standard input" : path);
   csv.require("azimuth_deg");
   csv.require("altitude_deg");
   std::vector<DirectionRow> rows;

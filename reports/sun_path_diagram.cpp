@@ -14,21 +14,21 @@ std::string at(double x, double y) {
   return coordinate(kCentreX + kRadius * x) + " " + coordinate(kCentreY - kRadius * y);
 }
 
-SunPathPoint mixed(SunPathPoint a, SunPathPoint b, double t) {
+DiagramPoint mixed(DiagramPoint a, DiagramPoint b, double t) {
   // Azimuths the short way round.
   const double turn = std::remainder((b.azimuth - a.azimuth).in_radians(), 2.0 * kPi);
   return {a.azimuth + Angle::radians(t * turn), a.altitude + t * (b.altitude - a.altitude)};
 }
 
-SunPathPoint at_horizon(SunPathPoint a, SunPathPoint b) {
+DiagramPoint at_horizon(DiagramPoint a, DiagramPoint b) {
   return mixed(a, b, a.altitude.in_radians() / (a.altitude - b.altitude).in_radians());
 }
 
-bool is_up(SunPathPoint p) { return p.altitude >= Angle(); }
+bool is_up(DiagramPoint p) { return p.altitude >= Angle(); }
 
 // The parts of a line above the horizon, each cut exactly at it.
-std::vector<std::vector<SunPathPoint>> visible_parts(const std::vector<SunPathPoint>& points) {
-  std::vector<std::vector<SunPathPoint>> parts;
+std::vector<std::vector<DiagramPoint>> visible_parts(const std::vector<DiagramPoint>& points) {
+  std::vector<std::vector<DiagramPoint>> parts;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const bool up = is_up(points[i]), was_up = i > 0 && is_up(points[i - 1]);
     if (up && !was_up) {
@@ -41,10 +41,10 @@ std::vector<std::vector<SunPathPoint>> visible_parts(const std::vector<SunPathPo
   return parts;
 }
 
-std::string polyline(const std::vector<SunPathPoint>& points, SunPathProjection projection,
+std::string polyline(const std::vector<DiagramPoint>& points, SunPathProjection projection,
                      const char* style) {
   std::string path;
-  for (const SunPathPoint p : points) {
+  for (const DiagramPoint p : points) {
     const SunPathPlace place = sun_path_place(p, projection);
     path += path.empty() ? 'M' : 'L';
     path += at(place.x, place.y);
@@ -100,7 +100,7 @@ std::string spokes(const std::vector<double>& taken) {
 
 std::string day_lines(const SunPathDiagram& diagram, std::vector<double>& taken) {
   std::string svg;
-  for (const SunPathLine& day : diagram.days) {
+  for (const DiagramLine& day : diagram.days) {
     const auto parts = visible_parts(day.points);
     for (const auto& part : parts) svg += polyline(part, diagram.projection, "day");
     if (parts.empty() || day.label.empty()) continue;
@@ -117,12 +117,12 @@ std::string day_lines(const SunPathDiagram& diagram, std::vector<double>& taken)
 
 std::string hour_lines(const SunPathDiagram& diagram) {
   std::string svg, labels;
-  for (const SunPathLine& hour : diagram.hours) {
+  for (const DiagramLine& hour : diagram.hours) {
     const auto parts = visible_parts(hour.points);
-    const SunPathPoint* highest = nullptr;
+    const DiagramPoint* highest = nullptr;
     for (const auto& part : parts) {
       svg += polyline(part, diagram.projection, "hour");
-      for (const SunPathPoint& p : part) {
+      for (const DiagramPoint& p : part) {
         if (highest == nullptr || p.altitude > highest->altitude) highest = &p;
       }
     }
@@ -166,7 +166,7 @@ constexpr const char* kStyle =
 
 }  // namespace
 
-SunPathPlace sun_path_place(SunPathPoint point, SunPathProjection projection) {
+SunPathPlace sun_path_place(DiagramPoint point, SunPathProjection projection) {
   const double zenith_angle = 0.5 * kPi - point.altitude.in_radians();
   const double r = projection == SunPathProjection::Stereographic ? std::tan(0.5 * zenith_angle)
                                                                   : zenith_angle / (0.5 * kPi);

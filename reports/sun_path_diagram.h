@@ -10,15 +10,15 @@
 namespace tenku {
 
 /// A position of the sun.
-struct SunPathPoint {
+struct DiagramPoint {
   Angle azimuth, altitude;
 };
 
 /// A way of the sun: through one day, or at one hour through the year. Parts below the horizon are
 /// not drawn.
-struct SunPathLine {
+struct DiagramLine {
   std::string label;  ///< `21 Jun`, `9`; empty for none
-  std::vector<SunPathPoint> points;
+  std::vector<DiagramPoint> points;
 };
 
 enum class SunPathProjection {
@@ -29,9 +29,9 @@ enum class SunPathProjection {
 /// What the diagram shows.
 struct SunPathDiagram {
   std::string title;               ///< for screen readers too
-  std::vector<SunPathLine> days;   ///< usually the 21st of each month
-  std::vector<SunPathLine> hours;  ///< one line an hour
-  std::optional<SunPathPoint> instant;
+  std::vector<DiagramLine> days;   ///< usually the 21st of each month
+  std::vector<DiagramLine> hours;  ///< one line an hour
+  std::optional<DiagramPoint> instant;
   std::string instant_label;
   SunPathProjection projection = SunPathProjection::Stereographic;
 };
@@ -44,6 +44,6 @@ std::string sun_path_svg(const SunPathDiagram& diagram);
 struct SunPathPlace {
   double x = 0.0, y = 0.0;
 };
-SunPathPlace sun_path_place(SunPathPoint point, SunPathProjection projection);
+SunPathPlace sun_path_place(DiagramPoint point, SunPathProjection projection);
 
 }  // namespace tenku

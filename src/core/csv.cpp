@@ -52,7 +52,7 @@ std::vector<std::string> cells_of(std::string_view line, const std::string& wher
 
 }  // namespace
 
-CsvTable::CsvTable(std::string_view text, std::string name) : name_(std::move(name)) {
+CsvInput::CsvInput(std::string_view text, std::string name) : name_(std::move(name)) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   std::size_t line_number = 0;
   while (!text.empty()) {
@@ -80,21 +80,21 @@ CsvTable::CsvTable(std::string_view text, std::string name) : name_(std::move(na
   if (columns_.empty()) throw InputError(name_ + ": the table is empty; a header line is needed");
 }
 
-void CsvTable::require(std::string_view column) const {
+void CsvInput::require(std::string_view column) const {
   if (!has(column)) throw InputError(fmt::format("{}: there is no column '{}'", name_, column));
 }
 
-const std::string& CsvTable::text(std::size_t row, std::string_view column) const {
+const std::string& CsvInput::text(std::size_t row, std::string_view column) const {
   const auto found = columns_.find(column);
   expects(found != columns_.end(), "the column was required");
   return rows_.at(row).cells.at(found->second);
 }
 
-double CsvTable::number(std::size_t row, std::string_view column) const {
+double CsvInput::number(std::size_t row, std::string_view column) const {
   return finite_number(text(row, column), fmt::format("{}, column '{}'", where(row), column));
 }
 
-std::string CsvTable::where(std::size_t row) const {
+std::string CsvInput::where(std::size_t row) const {
   return fmt::format("{}, line {}", name_, rows_.at(row).line);
 }
 

@@ -13,12 +13,12 @@ namespace tenku {
 
 /// A table read whole. Cells may be quoted; blanks around them are dropped; blank lines and lines
 /// that begin with `#` are skipped; a byte-order mark and CRLF line ends are understood.
-class CsvTable {
+class CsvInput {
  public:
   /// @param name  of the file, for messages
   /// @throws InputError if there is no header, a column is named twice, or a row has another
   ///         number of cells than the header
-  CsvTable(std::string_view text, std::string name);
+  CsvInput(std::string_view text, std::string name);
 
   std::size_t size() const { return rows_.size(); }
   bool has(std::string_view column) const { return columns_.find(column) != columns_.end(); }

@@ -17,7 +17,7 @@ std::vector<std::string> input_columns(const SunTable& table) {
   return names;
 }
 
-SunRow read_row(const CsvTable& csv, const SunTable& table, std::size_t i) {
+SunRow read_row(const CsvInput& csv, const SunTable& table, std::size_t i) {
   SunRow row;
   row.time = parse_time(csv.text(i, "time"), "UTC");
   row.site = {Angle::degrees(csv.number(i, "latitude")), Angle::degrees(csv.number(i, "longitude")),
@@ -45,7 +45,7 @@ std::string csv_row(const SunRow& row) {
 }  // namespace
 
 SunTable parse_sun_table(std::string_view text, const std::string& name) {
-  const CsvTable csv(text, name);
+  const CsvInput csv(text, name);
   for (const char* column : {"time", "latitude", "longitude", "elevation_m"}) csv.require(column);
   SunTable table;
   table.has_air = csv.has("pressure_hpa") || csv.has("temperature_c");

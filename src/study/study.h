@@ -53,7 +53,7 @@ enum class ViewKind { LuminanceImage, IlluminanceImage, FalseColour };
 struct StudyView {
   std::string name;
   std::optional<Vec3> eye, target;  ///< in the coordinates of the scene file; both or neither
-  Angle field_of_view = Angle::degrees(50.0);  ///< vertical
+  Angle field_of_view = Angle::degrees(50.0);  ///< horizontal
   std::array<int, 2> size{960, 640};           ///< pixels, width and height
   ViewKind show = ViewKind::LuminanceImage;
   std::vector<std::string> formats{"png"};  ///< of `png`, `exr`, `hdr`, each once

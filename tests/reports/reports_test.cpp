@@ -187,7 +187,7 @@ TEST(SunPath, DrawsOnlyWhatIsAboveTheHorizonAndEscapesLabels) {
   d.title = "<b>";
   d.days = {{"<21>", {{deg(80), deg(-10)}, {deg(100), deg(10)}, {deg(120), deg(-10)}}},
             {"night", {{deg(80), deg(-10)}, {deg(100), deg(-5)}}}};
-  d.instant = SunPathPoint{deg(100), deg(-1)};
+  d.instant = DiagramPoint{deg(100), deg(-1)};
   d.instant_label = "now";
   const std::string svg = sun_path_svg(d);
   EXPECT_EQ(count_of(svg, "class=\"day\""), 1U);

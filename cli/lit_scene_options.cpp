@@ -1,0 +1,60 @@
+#include "cli/lit_scene_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <map>
+
+#include "core/error.h"
+
+namespace tenku {
+namespace {
+
+void check_engine(const std::string& engine) {
+  if (engine == "auto" || engine == "rays") return;
+  if (engine == "shadow-maps") {
+    throw InputError("this version has no shadow-map engine; use --engine rays");
+  }
+  throw InputError("there is no engine '" + engine + "'; there are auto and rays");
+}
+
+}  // namespace
+
+void add_lit_scene_options(CLI::App& app, LitSceneOptions& options) {
+  add_scene_options(app, options.scene);
+  add_site_options(app, options.site);
+  add_sky_options(app, options.sky);
+  app.add_option("--tolerance", options.tolerance_pct,
+                 "error asked for, percent of each value (default 2)");
+  app.add_option("--bounces", options.bounces,
+                 "diffuse bounces of the reflected light, 0 for none (default 5)");
+  app.add_option("--engine", options.engine, "visibility engine: auto or rays (default auto)");
+  app.add_option("--out", options.out, "file to write; - for standard output")->required();
+}
+
+LitScene load_lit_scene(const LitSceneOptions& options, Progress& progress) {
+  check_engine(options.engine);
+  ReadOptions read = read_options(options.scene);
+  if (options.site.latitude_deg) read.site = resolve_location(options.site, std::nullopt);
+  const auto make_sky = [&](const std::optional<Location>& scene_site) {
+    return resolve_sky(options.site, options.sky, scene_site);
+  };
+  return LitScene(options.scene.scene, read, make_sky, progress);
+}
+
+void say_findings(const CommonOptions& options, const std::vector<Finding>& findings) {
+  std::map<std::string, std::pair<const Finding*, std::size_t>> kinds;
+  for (const Finding& finding : findings) {
+    auto& [first, count] = kinds[finding.code];
+    if (first == nullptr) first = &finding;
+    count += finding.count;
+  }
+  for (const auto& [code, kind] : kinds) {
+    const auto& [first, count] = kind;
+    say(options, fmt::format("{}: {} x {}: {}{}{}", name_of(first->severity), count, code,
+                             first->what, first->object.empty() ? "" : ", first at ",
+                             first->object));
+  }
+}
+
+}  // namespace tenku

@@ -1,0 +1,161 @@
+#include "study/run_study.h"
+
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "illuminance/illuminate.h"
+#include "output/field_writer.h"
+#include "output/sensor_file.h"
+#include "output/table_writer.h"
+#include "reports/report.h"
+#include "study/ground_plan.h"
+#include "study/illuminance_field.h"
+#include "study/lit_scene.h"
+#include "study/study_report.h"
+#include "study/study_sky.h"
+#include "study/view_output.h"
+#include "view/view_render.h"
+
+namespace tenku {
+namespace {
+
+namespace fs = std::filesystem;
+
+ReadOptions read_options_of(const StudyScene& scene) {
+  ReadOptions options;
+  options.building_lod = scene.building_lod;
+  options.materials = scene.materials;
+  options.crs = scene.crs;
+  options.ground = GroundChoice::parse(scene.ground);
+  options.up = scene.up == "y" ? UpAxis::Y : scene.up == "z" ? UpAxis::Z : UpAxis::ByFormat;
+  options.scale = scene.scale;
+  options.rotate = scene.rotate;
+  options.site = scene.site;
+  return options;
+}
+
+IlluminanceOptions illuminance_options_of(const StudyCalculation& calculation) {
+  IlluminanceOptions options;
+  options.tolerance_pct = calculation.tolerance_percent;
+  options.bounces = calculation.bounces;
+  options.seed = calculation.seed;
+  return options;
+}
+
+ViewRequest view_request_of(const StudyView& view, const Study& study, const LitScene& lit) {
+  ViewRequest request;
+  request.view.width = view.size[0];
+  request.view.height = view.size[1];
+  request.view.horizontal_fov = view.field_of_view;
+  request.tolerance_pct = study.calculation.tolerance_percent;
+  request.bounces = study.calculation.bounces;
+  request.seed = study.calculation.seed;
+  if (view.eye && view.target) {
+    request.view.eye = lit.scene().frame.to_local(*view.eye);
+    request.view.target = lit.scene().frame.to_local(*view.target);
+  } else {
+    place_overview(lit, request.view);
+  }
+  return request;
+}
+
+/// Each step of a study: what it makes goes into a file and into the report.
+class StudyRun {
+ public:
+  StudyRun(const Study& study, const fs::path& folder, Progress& progress)
+      : study_(study), folder_(folder), progress_(progress),
+        lit_(study.scene.file, read_options_of(study.scene),
+             [&](const std::optional<Location>& scene_site) {
+               moment_ = moment_of(study, scene_site);
+               return sky_of(study, moment_);
+             },
+             progress_),
+        report_(study, lit_, moment_) {}
+
+  void render(const StudyView& view) {
+    const RenderedView picture = render_view(view_request_of(view, study_, lit_), lit_.rays(),
+                                             lit_.source(), lit_.sky().model.get(), progress_);
+    for (const std::string& format : view.formats) {
+      write_view(place(view.name + "." + format), picture, view.show,
+                 {.title = report_.title(), .time = report_.time_text(), .units = {}});
+    }
+    report_.add_view(picture, view);
+  }
+
+  void illuminate_surfaces(const StudyField& field) {
+    const SensorGrid grid = lit_.grid(field.surfaces, field.spacing_m);
+    const IlluminanceResult result = light(grid.sensors);
+    FieldMesh mesh = field_of_grid(lit_, grid, result.values);
+    mesh.texts.push_back({"time", {report_.time_text()}});
+    write_vtp(place(field.name + ".vtp"), mesh);
+    report_.add_field(grid, result.values);
+  }
+
+  void illuminate_sensors(const StudySensors& sensors) {
+    const SensorPoints points = read_sensor_file(sensors.file);
+    const IlluminanceResult result = light(lit_.to_local({points.position, points.normal}));
+    illuminance_table(points.position, points.normal, result.values)
+        .write(place(sensors.name + ".csv"));
+  }
+
+  void map_ground(const StudyPlan& plan) {
+    GroundPlan ground = ground_plan(lit_, plan.spacing_m);
+    if (ground.sensors.size() == 0) return report_.note("the plan was left out: no open ground");
+    const IlluminanceResult result = light(ground.sensors);
+    ground.fill(result.values);
+    const Image8 map = plan_map(report_.plan_of(ground, result.values, plan));
+    write_png(place("plan.png"), map, {.title = report_.title(), .time = report_.time_text(), .units = {}});
+    report_.add_plan(map);
+  }
+
+  StudyOutcome finish() {
+    if (const std::string sun_path = report_.sun_path(); !sun_path.empty()) {
+      write_whole_file(place("sun_path.svg"), sun_path);
+    }
+    if (study_.report) write_whole_file(place("report.html"), report_html(report_.content()));
+    const fs::path manifest = place("manifest.json");
+    write_manifest(manifest, report_.manifest(outcome_.files));
+    outcome_.findings = report_.findings();
+    return outcome_;
+  }
+
+ private:
+  IlluminanceResult light(const Sensors& sensors) {
+    IlluminanceResult result =
+        illuminate(sensors, lit_.rays(), lit_.source(), illuminance_options_of(study_.calculation),
+                   progress_);
+    outcome_.out_of_tolerance += result.out_of_tolerance;
+    report_.add_light(result);
+    return result;
+  }
+
+  fs::path place(const std::string& name) {
+    outcome_.files.push_back(folder_ / name);
+    return outcome_.files.back();
+  }
+
+  const Study& study_;
+  fs::path folder_;
+  Progress& progress_;
+  StudyMoment moment_;
+  LitScene lit_;
+  ReportBuilder report_;
+  StudyOutcome outcome_;
+};
+
+}  // namespace
+
+StudyOutcome run_study(const Study& study, const fs::path& folder, Progress& progress) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder)) {
+    throw InputError("cannot make the folder " + folder.string() + ": " + error.message());
+  }
+  StudyRun run(study, folder, progress);  // reads the scene, places the sun, makes the sky
+  for (const StudyView& view : study.views) run.render(view);
+  for (const StudyField& field : study.fields) run.illuminate_surfaces(field);
+  for (const StudySensors& sensors : study.sensors) run.illuminate_sensors(sensors);
+  if (study.plan) run.map_ground(*study.plan);
+  return run.finish();
+}
+
+}  // namespace tenku

@@ -1,0 +1,27 @@
+/// A study from its file to its results: the whole program on one page.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/finding.h"
+#include "core/progress.h"
+#include "study/study.h"
+
+namespace tenku {
+
+/// What a study left behind.
+struct StudyOutcome {
+  std::vector<std::filesystem::path> files;
+  std::size_t out_of_tolerance = 0;  ///< sensors that reached the limit of effort first
+  std::vector<Finding> findings;
+};
+
+/// Runs a study and writes its results into a folder, which is made if need be: views, fields,
+/// tables, plan, sun path, `report.html` and `manifest.json`.
+/// @throws InputError, ResourceError, Cancelled
+StudyOutcome run_study(const Study& study, const std::filesystem::path& folder, Progress& progress);
+
+}  // namespace tenku
