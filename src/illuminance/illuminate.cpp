@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/random.h"
-#include "illuminance/direct_cache.h"
+#include "illuminance/sky_cache.h"
 #include "illuminance/reflected_light.h"
 #include "illuminance/sensor_sky.h"
 #include "illuminance/sensor_sun.h"
@@ -32,7 +32,7 @@ void check_options(const IlluminanceOptions& options) {
 class SensorWork {
  public:
   SensorWork(const Sensors& sensors, std::size_t index, const RayVisibility& rays,
-             const DaylightSource& source, DirectCache& cache, const IlluminanceOptions& options)
+             const DaylightSource& source, SkyCache& cache, const IlluminanceOptions& options)
       : options_(options),
         sky_(rays, source.sky.get(), sensors.position[index], sensors.normal[index],
              SampleRandom(options.seed, index, 0)),
@@ -76,16 +76,22 @@ class SensorWork {
   }
   double variance() const { return sky_.variance() + sun_.variance() + reflected_.variance(); }
 
-  /// Doubles the effort of the least certain part that can still be refined.
+  /// Doubles the effort of the part where that gains the most for its rays, of those that can
+  /// still be refined.
   bool refine_worst() {
-    const double sky = sky_.slices() < options_.most_slices ? sky_.variance() : 0.0;
-    const double sun = sun_.rays_sent() < std::uint64_t(options_.most_paths) ? sun_.variance() : 0.0;
-    const double reflected = reflected_.paths() < options_.most_paths ? reflected_.variance() : 0.0;
-    const double worst = std::max({sky, sun, reflected});
-    if (!(worst > 0.0)) return false;
-    if (worst == reflected) {
+    const auto gain = [](bool can, double variance, std::uint64_t rays) {
+      return can ? variance / static_cast<double>(std::max<std::uint64_t>(rays, 1)) : 0.0;
+    };
+    const auto most_paths = static_cast<std::uint64_t>(options_.most_paths);
+    const double sky = gain(sky_.slices() < options_.most_slices, sky_.variance(), sky_.rays_sent());
+    const double sun = gain(sun_.rays_sent() < most_paths, sun_.variance(), sun_.rays_sent());
+    const double reflected = gain(reflected_.paths() < options_.most_paths, reflected_.variance(),
+                                  reflected_.rays_sent());
+    const double most = std::max({sky, sun, reflected});
+    if (!(most > 0.0)) return false;
+    if (most == reflected) {
       reflected_.refine();
-    } else if (worst == sky) {
+    } else if (most == sky) {
       sky_.refine();
     } else {
       sun_.refine();
@@ -111,7 +117,7 @@ IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
   result.values = SensorIlluminance(sensors.size());
   std::atomic<std::uint64_t> rays_sent{0};
   std::atomic<std::size_t> missed{0};
-  DirectCache cache(rays, source, options.seed);
+  SkyCache cache(rays, source, options.seed);
   progress.begin(options.known_direct_lux ? "reflected light" : "illuminance", sensors.size());
   parallel_for(sensors.size(), kGrain, [&](IndexRange range) {
     progress.stop_if_cancelled();

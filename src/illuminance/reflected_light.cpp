@@ -12,8 +12,7 @@ namespace {
 
 constexpr int kCertainBounces = 8;  // after these a path goes on by chance
 constexpr int kMostMirrors = 8;     // in a row
-constexpr int kSunRays = 4;         // of a true value
-constexpr int kTrueSlices = 32;     // and of its sky: not by result, which would bias it
+constexpr int kTrueSlices = 16;     // of a true value: not by result, which would bias it
 
 // Student's t over the normal quantile, squared: 15 and 7 degrees of freedom, at 95 %.
 constexpr double kWiden15 = 1.183, kWiden7 = 1.456;
@@ -34,14 +33,16 @@ struct ReflectedLight::Vertex {
   const Material& material;
   std::uint32_t triangle;
   Vec3 point, normal;     ///< the normal on the side of the path
+  double u, v;            ///< two more random numbers of the path, for the solar disc
   double distance_m;
 };
 
-ReflectedLight::ReflectedLight(const RayVisibility& rays, DirectCache& cache, int bounces,
+ReflectedLight::ReflectedLight(const RayVisibility& rays, SkyCache& cache, int bounces,
                                Vec3 position, Vec3 normal, SampleRandom random)
     : rays_(rays), cache_(cache), bounces_(bounces), origin_(position + rays.lift_m() * normal),
       normal_(normal), scramble_(random.bits()), batch_sum_(kBatches),
-      order_sum_(static_cast<std::size_t>(bounces) + 1) {}
+      order_sum_(static_cast<std::size_t>(bounces) + 1),
+      sun_frame_(tangent_frame(cache.source().sun.direction)) {}
 
 template <class AtVertex>
 void ReflectedLight::trace_path(PathStart start, int last_order, const AtVertex& at_vertex) {
@@ -77,7 +78,8 @@ void ReflectedLight::trace_path(PathStart start, int last_order, const AtVertex&
       continue;
     }
     weight = (1.0 / (1.0 - to_mirror)) * weight;
-    at_vertex(Vertex{order, weight, material, hit->triangle, point, normal, hit->distance_m});
+    at_vertex(Vertex{order, weight, material, hit->triangle, point, normal, chance.uniform(),
+                     chance.uniform(), hit->distance_m});
     weight = weight * material.reflectance;
     if (order >= kCertainBounces) {
       if (!(chance.uniform() < diffuse_part)) return;
@@ -94,7 +96,8 @@ void ReflectedLight::trace_looked_up(int goal) {
     const PathStart start{static_cast<std::uint32_t>(looked_up_paths_ / kBatches),
                           mix_bits(scramble_ + batch)};
     trace_path(start, bounces_, [&](const Vertex& v) {
-      const double direct = cache_.lux(v.triangle, v.point, v.normal, v.distance_m);
+      const double direct = cache_.lux(v.triangle, v.point, v.normal, v.distance_m) +
+                            sun_lux(v.point, v.normal, v.u, v.v);
       const Rgb leaving = v.material.emission_lm_m2 + direct * v.material.reflectance;
       const double lux = luminance_of(v.weight * leaving);
       batch_sum_[batch] += lux;
@@ -126,7 +129,7 @@ void ReflectedLight::trace_differences(int goal) {
     trace_path(start, order, [&](const Vertex& v) {
       if (v.order != order) return;
       const std::uint64_t address = mix_bits(start.scramble + index);
-      const double missed = true_direct(v.point, v.normal, address) -
+      const double missed = true_sky_lux(v.point, v.normal, address) -
                             cache_.lux(v.triangle, v.point, v.normal, v.distance_m);
       lux = missed * luminance_of(v.weight * v.material.reflectance) / probability;
     });
@@ -138,42 +141,39 @@ void ReflectedLight::trace_differences(int goal) {
   difference_ = {mean, variance * (difference_paths_ <= kFirstDifferences ? kWiden7 : kWiden15)};
 }
 
-double ReflectedLight::true_direct(Vec3 point, Vec3 normal, std::uint64_t address) {
-  const DaylightSource& source = cache_.source();
-  double lux = 0.0;
-  if (source.sky) {
-    SensorSky sky(rays_, source.sky.get(), point, normal, SampleRandom(scramble_, address, 2),
-                  SensorSky::Effort{.first_slices = kTrueSlices, .halving = false});
-    sky.refine();
-    lux += sky.signed_lux();
-    rays_sent_ += sky.rays_sent();
-  }
-  if (source.sun.normal_illuminance > Illuminance(0.0)) {
-    const TangentFrame frame = tangent_frame(source.sun.direction);
-    const Vec3 origin = point + rays_.lift_m() * normal;
-    for (std::uint32_t k = 0; k < kSunRays; ++k) {
-      const Vec3 direction = direction_on_disc(source.sun, frame, sobol_owen(k, 0, address),
-                                               sobol_owen(k, 1, address));
-      const double cosine = dot(normal, direction);
-      if (!(cosine > 0.0) || !(direction.z > 0.0)) continue;
-      ++rays_sent_;
-      if (rays_.is_occluded(origin, direction)) continue;
-      lux += source.sun.normal_illuminance.value() * cosine / kSunRays *
-             rays_.glass_transmission(origin, direction);
-    }
-  }
-  return lux;
+double ReflectedLight::sun_lux(Vec3 point, Vec3 normal, double u, double v) {
+  const SolarDisc& sun = cache_.source().sun;
+  if (!(sun.normal_illuminance > Illuminance(0.0))) return 0.0;
+  const Vec3 direction = direction_on_disc(sun, sun_frame_, u, v);
+  const double cosine = dot(normal, direction);
+  if (!(cosine > 0.0) || !(direction.z > 0.0)) return 0.0;
+  const Vec3 origin = point + rays_.lift_m() * normal;
+  ++rays_sent_;
+  if (rays_.is_occluded(origin, direction)) return 0.0;
+  return sun.normal_illuminance.value() * cosine * rays_.glass_transmission(origin, direction);
+}
+
+double ReflectedLight::true_sky_lux(Vec3 point, Vec3 normal, std::uint64_t address) {
+  SensorSky sky(rays_, cache_.source().sky.get(), point, normal, SampleRandom(scramble_, address, 2),
+                SensorSky::Effort{.first_slices = kTrueSlices, .halving = false});
+  sky.refine();
+  rays_sent_ += sky.rays_sent();
+  return sky.signed_lux();
 }
 
 void ReflectedLight::refine() {
-  if (looked_up_paths_ == 0) {
-    trace_looked_up(kFirstPaths);
-    trace_differences(kFirstDifferences);
-  } else if (looked_up_.variance > difference_.variance) {
-    trace_looked_up(2 * looked_up_paths_);
-  } else {
-    trace_differences(2 * difference_paths_);
+  const bool has_sky = cache_.source().sky != nullptr;
+  const std::uint64_t before = rays_sent_;
+  if (looked_up_paths_ == 0 ||
+      looked_up_.variance * static_cast<double>(difference_rays_) >=
+          difference_.variance * static_cast<double>(looked_up_rays_)) {
+    trace_looked_up(looked_up_paths_ == 0 ? kFirstPaths : 2 * looked_up_paths_);
+    looked_up_rays_ += rays_sent_ - before;
+    if (difference_paths_ > 0 || !has_sky) return;
   }
+  const std::uint64_t between = rays_sent_;
+  trace_differences(difference_paths_ == 0 ? kFirstDifferences : 2 * difference_paths_);
+  difference_rays_ += rays_sent_ - between;
 }
 
 double ReflectedLight::left_out_lux() const {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "illuminance/direct_cache.h"
+#include "illuminance/sky_cache.h"
 #include "visibility/ray_visibility.h"
 
 namespace tenku {
@@ -13,19 +13,20 @@ namespace tenku {
 /// Illuminance of one sensor by one to `bounces` diffuse reflections, with its standard error.
 ///
 /// A path leaves the sensor in proportion to the cosine (Owen-scrambled Sobol) and goes on in the
-/// same way at each surface it meets, where the direct illuminance is looked up in a cache. A few
-/// paths more, drawn apart, measure the truth at one of their surfaces and take the mean of its
-/// difference from the cache: what the cache gets wrong becomes noise, never bias. Emitting surfaces count
+/// same way at each surface it meets, where a ray asks for the sun and the skylight is looked up in
+/// a cache. A few paths more, drawn apart, measure the skylight at one of their surfaces and take
+/// the mean of its difference from the cache: what the cache gets wrong becomes noise, never bias. Emitting surfaces count
 /// where paths meet them.
 ///
 /// Error    looked-up paths: variance of the mean of `kBatches` independent scrambles, widened for
 ///          its few degrees of freedom; difference: variance of the mean of its paths.
 class ReflectedLight {
  public:
-  ReflectedLight(const RayVisibility& rays, DirectCache& cache, int bounces, Vec3 position,
+  ReflectedLight(const RayVisibility& rays, SkyCache& cache, int bounces, Vec3 position,
                  Vec3 normal, SampleRandom random);
 
-  /// Doubles the paths of the part that is the less certain; the first call starts both.
+  /// Doubles the paths of the part where that gains the more for its rays; the first call starts
+  /// both.
   void refine();
 
   double lux() const { return looked_up_.mean + difference_.mean; }
@@ -51,10 +52,11 @@ class ReflectedLight {
   void trace_path(PathStart start, int last_order, const AtVertex& at_vertex);
   void trace_looked_up(int goal);
   void trace_differences(int goal);
-  double true_direct(Vec3 point, Vec3 normal, std::uint64_t address);
+  double sun_lux(Vec3 point, Vec3 normal, double u, double v);
+  double true_sky_lux(Vec3 point, Vec3 normal, std::uint64_t address);
 
   const RayVisibility& rays_;
-  DirectCache& cache_;
+  SkyCache& cache_;
   int bounces_;
   Vec3 origin_, normal_;
   std::uint64_t scramble_;
@@ -62,7 +64,8 @@ class ReflectedLight {
   std::vector<double> batch_sum_, order_sum_;
   double difference_sum_ = 0.0, difference_squares_ = 0.0;
   int looked_up_paths_ = 0, difference_paths_ = 0;
-  std::uint64_t rays_sent_ = 0;
+  std::uint64_t rays_sent_ = 0, looked_up_rays_ = 0, difference_rays_ = 0;
+  TangentFrame sun_frame_;
 };
 
 }  // namespace tenku

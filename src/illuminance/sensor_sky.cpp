@@ -161,7 +161,8 @@ double SensorSky::gap_error(Gap gap, double width, double height, double correct
 
 SensorSky::Slice SensorSky::make_slice(double azimuth_rad, int checks, double weight) {
   Work work;
-  work.along = normal_.x * std::sin(azimuth_rad) + normal_.y * std::cos(azimuth_rad);
+  const double sine = std::sin(azimuth_rad), cosine = std::cos(azimuth_rad);
+  work.along = normal_.x * sine + normal_.y * cosine;
   work.up = normal_.z;
   work.front = front_range(work.along, work.up);
   Slice slice;
@@ -169,7 +170,7 @@ SensorSky::Slice SensorSky::make_slice(double azimuth_rad, int checks, double we
   slice.ranges = 1;
   if (!(work.front.low < work.front.high)) return slice;
   if (table_ != nullptr) work.column = table_->column(azimuth_rad);
-  work.visible = tracer_.trace(azimuth_rad, work.front.low, work.front.high);
+  work.visible = tracer_.trace({sine, cosine, 0.0}, work.front.low, work.front.high);
   claim(work);
   slice.low_edge = work.visible.low_edge;
   slice.high_edge = work.visible.high_edge;

@@ -79,7 +79,13 @@ SkyTable::Column SkyTable::column(double azimuth_rad) const {
 }
 
 SliceMoments SkyTable::Column::to(double altitude_rad) const {
-  const double place = std::clamp(altitude_rad / table_->row_rad_, 0.0, double(table_->rows_));
+  if (altitude_rad <= 0.0) return {};
+  if (altitude_rad >= kHalfPi) {
+    const std::size_t top = static_cast<std::size_t>(table_->rows_) * kNodeFloats;
+    return {left_[top] + weight_ * (right_[top] - left_[top]),
+            left_[top + 2] + weight_ * (right_[top + 2] - left_[top + 2])};
+  }
+  const double place = altitude_rad / table_->row_rad_;
   const int row = std::min(static_cast<int>(place), table_->rows_ - 1);
   const double t = place - row;
   const std::size_t at = static_cast<std::size_t>(row) * kNodeFloats;

@@ -13,7 +13,7 @@
 namespace tenku {
 namespace {
 
-constexpr int kBlock = 4;  // pixels a side that share reflected light on one surface
+constexpr int kBlock = 8;  // pixels a side that share reflected light on one surface
 
 /// Averages of skylight over the pixels around, on the same surface.
 void smooth_sky(const ShadingPoints& points, SensorIlluminance& light) {
@@ -95,7 +95,7 @@ class ReflectedBlend {
 
 IlluminanceOptions options_of(const ViewRequest& request) {
   IlluminanceOptions options;
-  options.tolerance_pct = std::min(100.0, ErrorBudget::kErrorsInTolerance * request.tolerance_pct);
+  options.tolerance_pct = std::min(100.0, 12.0 * request.tolerance_pct);
   options.bounces = 0;
   options.seed = request.seed;
   return options;
@@ -116,7 +116,6 @@ std::uint64_t add_reflected(const ViewRequest& request, const ShadingPoints& poi
   options.bounces = request.bounces;
   options.known_direct_lux = &direct;
   // Some twenty representatives are blended in a pixel.
-  options.tolerance_pct = std::min(100.0, 4.0 * options.tolerance_pct);
   const IlluminanceResult reflected = illuminate(sensors, rays, source, options, progress);
   const ReflectedBlend blend(points, chosen, reflected.values);
   for (std::size_t i = 0; i < points.sensors.size(); ++i) {

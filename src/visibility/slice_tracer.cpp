@@ -40,6 +40,7 @@ void VisibleSlice::remove(double low, double high) {
 SliceTracer::SliceTracer(const RayVisibility& rays, Vec3 origin) : rays_(rays), origin_(origin) {}
 
 Vec3 SliceTracer::direction(double altitude_rad) const {
+  if (altitude_rad == 0.0) return plane_.along;
   const double c = std::cos(altitude_rad), s = std::sin(altitude_rad);
   return {c * plane_.along.x, c * plane_.along.y, s};
 }
@@ -97,7 +98,7 @@ SliceTracer::Outline SliceTracer::follow(std::uint32_t triangle, int sense) cons
   }
   const double altitude = best.r <= 0.0 ? (best.z > 0.0 ? kHalfPi : 0.0) : std::atan2(best.z, best.r);
   const auto& corners = soup.triangles[triangle];
-  return {altitude, triangle, std::hypot(best.r, best.z), {corners[edge], corners[(edge + 1) % 3]}};
+  return {altitude, triangle, std::sqrt(best.r * best.r + best.z * best.z), {corners[edge], corners[(edge + 1) % 3]}};
 }
 
 std::uint32_t SliceTracer::cut_near(std::uint32_t triangle) const {
@@ -153,9 +154,8 @@ bool SliceTracer::zenith_is_open() {
   return zenith_ == 1;
 }
 
-VisibleSlice SliceTracer::trace(double azimuth_rad, double low, double high) {
-  const double sine = std::sin(azimuth_rad), cosine = std::cos(azimuth_rad);
-  plane_ = {{sine, cosine, 0.0}, {cosine, -sine, 0.0}};
+VisibleSlice SliceTracer::trace(Vec3 along, double low, double high) {
+  plane_ = {along, {along.y, -along.x, 0.0}};
   VisibleSlice slice;
   if (!(high > low)) return slice;
   const double bottom = find_end(low, high, +1, low_end_);

@@ -55,9 +55,9 @@ class SliceTracer {
  public:
   SliceTracer(const RayVisibility& rays, Vec3 origin);
 
-  /// Visible altitudes in [low, high] toward `azimuth` (radians, clockwise from north), with
+  /// Visible altitudes in [low, high] toward `along`, a horizontal unit vector, with
   /// 0 <= low <= high <= pi/2.
-  VisibleSlice trace(double azimuth_rad, double low, double high);
+  VisibleSlice trace(Vec3 along, double low, double high);
 
   /// Whether the sky shows at `altitude`, in the azimuth last traced. `claimed` is what `trace`
   /// said there.

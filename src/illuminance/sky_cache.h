@@ -1,4 +1,4 @@
-/// Direct illuminance of surfaces, roughly: a guess that path tracing corrects.
+/// Skylight on surfaces, roughly: a guess that path tracing corrects.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace tenku {
 
-/// Sun and sky on the surfaces of a scene, one value a cell, found when it is first asked for.
+/// Direct skylight on the surfaces of a scene, one value a cell, found when it is first asked for.
 ///
 /// A cell is the part of one side of one triangle in a cube of a grid whose pitch suits the
 /// distance from which it is seen. Its value belongs to one point of it and is the same whoever
@@ -20,12 +20,12 @@ namespace tenku {
 ///
 /// Error    not bounded: whoever uses it corrects it by true values.
 /// Threads  may be shared; look-ups lock one of many shards.
-class DirectCache {
+class SkyCache {
  public:
-  DirectCache(const RayVisibility& rays, const DaylightSource& source, std::uint64_t seed);
-  ~DirectCache();
+  SkyCache(const RayVisibility& rays, const DaylightSource& source, std::uint64_t seed);
+  ~SkyCache();
 
-  /// Direct illuminance (lux) near `point` of `triangle`, on the side to which `normal` points,
+  /// Illuminance (lux) from the visible sky near `point` of `triangle`, on the side to which `normal` points,
   /// for someone at `distance_m`.
   double lux(std::uint32_t triangle, Vec3 point, Vec3 normal, double distance_m);
 

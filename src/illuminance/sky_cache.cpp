@@ -1,4 +1,4 @@
-#include "illuminance/direct_cache.h"
+#include "illuminance/sky_cache.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +12,7 @@ namespace tenku {
 namespace {
 
 constexpr double kPitchPerDistance = 0.125;
+constexpr double kFar_m = 10.0;
 constexpr double kLeastPitch_m = 0.0625;
 constexpr double kRelativeError = 0.1;   // of a value, as far as slices can tell
 constexpr double kWorthKnowing = 0.005;  // of the horizontal sky illuminance
@@ -47,7 +48,8 @@ struct Cell {
 };
 
 Cell cell_of(std::uint32_t triangle, bool front, Vec3 point, double distance_m) {
-  const double wanted = std::max(kPitchPerDistance * distance_m, kLeastPitch_m);
+  const double near = std::min(1.0, std::sqrt(distance_m / kFar_m));  // finer in rooms
+  const double wanted = std::max(kPitchPerDistance * distance_m * near, kLeastPitch_m);
   const int level = static_cast<int>(std::ceil(std::log2(wanted)));
   const double pitch = std::exp2(level);
   const double i = std::floor(point.x / pitch), j = std::floor(point.y / pitch),
@@ -62,19 +64,19 @@ Cell cell_of(std::uint32_t triangle, bool front, Vec3 point, double distance_m) 
 
 }  // namespace
 
-struct DirectCache::Shard {
+struct SkyCache::Shard {
   std::mutex mutex;
   std::unordered_map<std::uint64_t, float> value;
 };
 
-DirectCache::DirectCache(const RayVisibility& rays, const DaylightSource& source,
+SkyCache::SkyCache(const RayVisibility& rays, const DaylightSource& source,
                          std::uint64_t seed)
     : rays_(rays), source_(source), seed_(seed),
       shards_(std::make_unique<std::array<Shard, kShards>>()) {}
 
-DirectCache::~DirectCache() = default;
+SkyCache::~SkyCache() = default;
 
-double DirectCache::lux(std::uint32_t triangle, Vec3 point, Vec3 normal, double distance_m) {
+double SkyCache::lux(std::uint32_t triangle, Vec3 point, Vec3 normal, double distance_m) {
   const bool front = dot(normal, rays_.normal(triangle)) > 0.0;
   const Cell cell = cell_of(triangle, front, point, distance_m);
   Shard& shard = (*shards_)[cell.key % kShards];
@@ -96,30 +98,18 @@ double DirectCache::lux(std::uint32_t triangle, Vec3 point, Vec3 normal, double 
   return value;
 }
 
-double DirectCache::measure(Vec3 point, Vec3 normal, std::uint64_t key) {
-  double lux = 0.0;
-  if (source_.sky) {
-    SensorSky sky(rays_, source_.sky.get(), point, normal, SampleRandom(seed_, key, 1),
-                  SensorSky::Effort{.checked = false});
-    const double floor_lux = kWorthKnowing * source_.sky->horizontal_lux();
-    do {
-      sky.refine();
-    } while (sky.slices() < kMostSlices &&
-             (sky.may_miss_openings() ||
-              std::sqrt(sky.variance()) > kRelativeError * std::max(sky.lux(), floor_lux)));
-    lux += sky.lux();
-    rays_sent_ += sky.rays_sent();
-  }
-  const double cosine = dot(normal, source_.sun.direction);
-  const double normal_lux = source_.sun.normal_illuminance.value();
-  if (normal_lux > 0.0 && cosine > 0.0 && source_.sun.direction.z > 0.0) {
-    const Vec3 origin = point + rays_.lift_m() * normal;
-    ++rays_sent_;
-    if (!rays_.is_occluded(origin, source_.sun.direction)) {
-      lux += normal_lux * cosine * rays_.glass_transmission(origin, source_.sun.direction);
-    }
-  }
-  return lux;
+double SkyCache::measure(Vec3 point, Vec3 normal, std::uint64_t key) {
+  if (!source_.sky) return 0.0;
+  SensorSky sky(rays_, source_.sky.get(), point, normal, SampleRandom(seed_, key, 1),
+                SensorSky::Effort{.checked = false});
+  const double floor_lux = kWorthKnowing * source_.sky->horizontal_lux();
+  do {
+    sky.refine();
+  } while (sky.slices() < kMostSlices &&
+           (sky.may_miss_openings() ||
+            std::sqrt(sky.variance()) > kRelativeError * std::max(sky.lux(), floor_lux)));
+  rays_sent_ += sky.rays_sent();
+  return sky.lux();
 }
 
 }  // namespace tenku
