@@ -10,6 +10,7 @@
 #include "core/random.h"
 #include "illuminance/sky_cache.h"
 #include "illuminance/reflected_light.h"
+#include "illuminance/reflected_sharing.h"
 #include "illuminance/sensor_sky.h"
 #include "illuminance/sensor_sun.h"
 
@@ -17,6 +18,7 @@ namespace tenku {
 namespace {
 
 constexpr std::size_t kGrain = 16;  // sensors a task
+constexpr double kBlended = 2.5;    // errors of about nine blended representatives in one of their mean
 
 void check_options(const IlluminanceOptions& options) {
   if (!(options.tolerance_pct > 0.0 && options.tolerance_pct <= 100.0)) {
@@ -35,12 +37,15 @@ class SensorWork {
              const DaylightSource& source, SkyCache& cache, const IlluminanceOptions& options)
       : options_(options),
         sky_(rays, source.sky.get(), sensors.position[index], sensors.normal[index],
-             SampleRandom(options.seed, index, 0)),
+             SampleRandom(options.seed, index, 0),
+             SensorSky::Effort{.first_slices = options.first_slices}),
         sun_(rays, source.sun, sensors.position[index], sensors.normal[index],
              mix_bits(mix_bits(options.seed) + index)),
         reflected_(rays, cache, options.bounces, sensors.position[index], sensors.normal[index],
                    SampleRandom(options.seed, index, 1)) {
-    if (options.known_direct_lux != nullptr) known_direct_ = (*options.known_direct_lux)[index];
+    if (options.known_direct == nullptr) return;
+    known_direct_ = options.known_direct->lux[index];
+    reflected_.set_way(ReflectedLight::way_for(options.known_direct->sky_view[index]));
   }
 
   /// Refines until the budget is met; false if the limit of effort came first.
@@ -50,6 +55,7 @@ class SensorWork {
       do {
         sky_.refine();
       } while (sky_.may_miss_openings());
+      reflected_.set_way(ReflectedLight::way_for(sky_.sky_view()));
     }
     if (options_.bounces > 0) reflected_.refine();
     while (variance() > budget.allowed_variance(total())) {
@@ -106,19 +112,49 @@ class SensorWork {
   double known_direct_ = -1.0;  ///< below zero: not known
 };
 
+/// Direct light of every sensor, reflected light of some of them, spread over the others.
+IlluminanceResult illuminate_sharing(const Sensors& sensors, const RayVisibility& rays,
+                                     const DaylightSource& source,
+                                     const IlluminanceOptions& options, Progress& progress) {
+  IlluminanceOptions direct = options;
+  direct.bounces = 0;
+  IlluminanceResult result = illuminate(sensors, rays, source, direct, progress);
+  const ReflectedSharing sharing(sensors, options.share_reflected_m);
+  Sensors few;
+  IlluminanceOptions::KnownDirect known;
+  for (const std::size_t s : sharing.representatives()) {
+    few.position.push_back(sensors.position[s]);
+    few.normal.push_back(sensors.normal[s]);
+    known.lux.push_back(result.values.total_lux(s));
+    known.sky_view.push_back(result.values.sky_view[s]);
+  }
+  IlluminanceOptions reflected = options;
+  reflected.share_reflected_m = 0.0;
+  reflected.tolerance_pct = std::min(100.0, kBlended * options.tolerance_pct);
+  reflected.known_direct = &known;
+  const IlluminanceResult some = illuminate(few, rays, source, reflected, progress);
+  sharing.spread(some.values, rays, result.values);
+  result.rays += some.rays;
+  result.out_of_tolerance += some.out_of_tolerance;
+  return result;
+}
+
 }  // namespace
 
 IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
                              const DaylightSource& source, const IlluminanceOptions& options,
                              Progress& progress) {
   check_options(options);
+  if (options.share_reflected_m > 0.0 && options.bounces > 0 && !options.known_direct) {
+    return illuminate_sharing(sensors, rays, source, options, progress);
+  }
   const ErrorBudget budget(options.tolerance_pct, source.unobstructed_lux());
   IlluminanceResult result;
   result.values = SensorIlluminance(sensors.size());
   std::atomic<std::uint64_t> rays_sent{0};
   std::atomic<std::size_t> missed{0};
   SkyCache cache(rays, source, options.seed);
-  progress.begin(options.known_direct_lux ? "reflected light" : "illuminance", sensors.size());
+  progress.begin(options.known_direct ? "reflected light" : "illuminance", sensors.size());
   parallel_for(sensors.size(), kGrain, [&](IndexRange range) {
     progress.stop_if_cancelled();
     for (std::size_t i = range.begin; i < range.end; ++i) {

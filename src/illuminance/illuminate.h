@@ -17,11 +17,18 @@ struct IlluminanceOptions {
   double tolerance_pct = 2.0;
   int bounces = 5;          ///< diffuse ones, of `reflected`; 0 for none
   std::uint64_t seed = 1;
+  int first_slices = 16;    ///< of the sky, a sensor; a power of two
   int most_slices = 4096;   ///< of the sky, a sensor
   int most_paths = 16384;   ///< of reflected light, a sensor
-  /// Direct light already known [sensor]: only the reflected light is found, to the tolerance of
-  /// the sum. Borrowed.
-  const std::vector<double>* known_direct_lux = nullptr;
+  /// Sensors nearer to each other than this share reflected light (ReflectedSharing); 0: each has
+  /// its own.
+  double share_reflected_m = 0.0;
+  /// Direct light already known, in lux, and the sky view with it [sensor]: only the reflected
+  /// light is found, to the tolerance of the sum. Borrowed.
+  struct KnownDirect {
+    std::vector<double> lux, sky_view;
+  };
+  const KnownDirect* known_direct = nullptr;
 };
 
 /// What came out, and what it took.

@@ -96,8 +96,9 @@ void ReflectedLight::trace_looked_up(int goal) {
     const PathStart start{static_cast<std::uint32_t>(looked_up_paths_ / kBatches),
                           mix_bits(scramble_ + batch)};
     trace_path(start, bounces_, [&](const Vertex& v) {
-      const double direct = cache_.lux(v.triangle, v.point, v.normal, v.distance_m) +
-                            sun_lux(v.point, v.normal, v.u, v.v);
+      const std::uint64_t address = mix_bits(mix_bits(start.scramble + start.index) ^
+                                             static_cast<unsigned>(v.order));
+      const double direct = sky_lux(v, address) + sun_lux(v.point, v.normal, v.u, v.v);
       const Rgb leaving = v.material.emission_lm_m2 + direct * v.material.reflectance;
       const double lux = luminance_of(v.weight * leaving);
       batch_sum_[batch] += lux;
@@ -129,7 +130,7 @@ void ReflectedLight::trace_differences(int goal) {
     trace_path(start, order, [&](const Vertex& v) {
       if (v.order != order) return;
       const std::uint64_t address = mix_bits(start.scramble + index);
-      const double missed = true_sky_lux(v.point, v.normal, address) -
+      const double missed = true_sky_lux(v.point, v.normal, address, kTrueSlices) -
                             cache_.lux(v.triangle, v.point, v.normal, v.distance_m);
       lux = missed * luminance_of(v.weight * v.material.reflectance) / probability;
     });
@@ -153,23 +154,28 @@ double ReflectedLight::sun_lux(Vec3 point, Vec3 normal, double u, double v) {
   return sun.normal_illuminance.value() * cosine * rays_.glass_transmission(origin, direction);
 }
 
-double ReflectedLight::true_sky_lux(Vec3 point, Vec3 normal, std::uint64_t address) {
+double ReflectedLight::sky_lux(const Vertex& v, std::uint64_t address) {
+  if (way_ == SkyBy::Cache) return cache_.lux(v.triangle, v.point, v.normal, v.distance_m);
+  return cache_.source().sky ? true_sky_lux(v.point, v.normal, address, 1) : 0.0;
+}
+
+double ReflectedLight::true_sky_lux(Vec3 point, Vec3 normal, std::uint64_t address, int slices) {
   SensorSky sky(rays_, cache_.source().sky.get(), point, normal, SampleRandom(scramble_, address, 2),
-                SensorSky::Effort{.first_slices = kTrueSlices, .halving = false});
+                SensorSky::Effort{.first_slices = slices, .halving = false});
   sky.refine();
   rays_sent_ += sky.rays_sent();
   return sky.signed_lux();
 }
 
 void ReflectedLight::refine() {
-  const bool has_sky = cache_.source().sky != nullptr;
+  const bool differs = way_ == SkyBy::Cache && cache_.source().sky != nullptr;
   const std::uint64_t before = rays_sent_;
   if (looked_up_paths_ == 0 ||
       looked_up_.variance * static_cast<double>(difference_rays_) >=
           difference_.variance * static_cast<double>(looked_up_rays_)) {
     trace_looked_up(looked_up_paths_ == 0 ? kFirstPaths : 2 * looked_up_paths_);
     looked_up_rays_ += rays_sent_ - before;
-    if (difference_paths_ > 0 || !has_sky) return;
+    if (difference_paths_ > 0 || !differs) return;
   }
   const std::uint64_t between = rays_sent_;
   trace_differences(difference_paths_ == 0 ? kFirstDifferences : 2 * difference_paths_);

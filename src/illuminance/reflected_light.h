@@ -13,17 +13,27 @@ namespace tenku {
 /// Illuminance of one sensor by one to `bounces` diffuse reflections, with its standard error.
 ///
 /// A path leaves the sensor in proportion to the cosine (Owen-scrambled Sobol) and goes on in the
-/// same way at each surface it meets, where a ray asks for the sun and the skylight is looked up in
-/// a cache. A few paths more, drawn apart, measure the skylight at one of their surfaces and take
-/// the mean of its difference from the cache: what the cache gets wrong becomes noise, never bias. Emitting surfaces count
+/// same way at each surface it meets, where a ray asks for the sun. The skylight there is found in
+/// one of two ways:
+///          by a slice of the sky at a random azimuth: cheap, good under an open sky;
+///          from a cache, good indoors, where few slices would meet a window: a few paths more, drawn
+///          apart, measure the skylight at one of their surfaces and take the mean of its
+///          difference from the cache. What the cache gets wrong becomes noise, never bias. Emitting surfaces count
 /// where paths meet them.
 ///
 /// Error    looked-up paths: variance of the mean of `kBatches` independent scrambles, widened for
 ///          its few degrees of freedom; difference: variance of the mean of its paths.
 class ReflectedLight {
  public:
+  enum class SkyBy { Slice, Cache };
+  /// The way that suits a sensor which sees this much of the sky.
+  static SkyBy way_for(double sky_view) { return sky_view > 0.15 ? SkyBy::Slice : SkyBy::Cache; }
+
   ReflectedLight(const RayVisibility& rays, SkyCache& cache, int bounces, Vec3 position,
                  Vec3 normal, SampleRandom random);
+
+  /// Chooses the way, before the first paths.
+  void set_way(SkyBy way) { way_ = way; }
 
   /// Doubles the paths of the part where that gains the more for its rays; the first call starts
   /// both.
@@ -36,7 +46,7 @@ class ReflectedLight {
   int paths() const { return looked_up_paths_ + difference_paths_; }
   std::uint64_t rays_sent() const { return rays_sent_; }
 
-  static constexpr int kBatches = 16, kFirstPaths = 64, kFirstDifferences = 8;
+  static constexpr int kBatches = 16, kFirstPaths = 32, kFirstDifferences = 8;
 
  private:
   struct Estimate {
@@ -53,7 +63,8 @@ class ReflectedLight {
   void trace_looked_up(int goal);
   void trace_differences(int goal);
   double sun_lux(Vec3 point, Vec3 normal, double u, double v);
-  double true_sky_lux(Vec3 point, Vec3 normal, std::uint64_t address);
+  double true_sky_lux(Vec3 point, Vec3 normal, std::uint64_t address, int slices);
+  double sky_lux(const Vertex& vertex, std::uint64_t address);
 
   const RayVisibility& rays_;
   SkyCache& cache_;
@@ -63,6 +74,7 @@ class ReflectedLight {
   Estimate looked_up_, difference_;
   std::vector<double> batch_sum_, order_sum_;
   double difference_sum_ = 0.0, difference_squares_ = 0.0;
+  SkyBy way_ = SkyBy::Cache;
   int looked_up_paths_ = 0, difference_paths_ = 0;
   std::uint64_t rays_sent_ = 0, looked_up_rays_ = 0, difference_rays_ = 0;
   TangentFrame sun_frame_;

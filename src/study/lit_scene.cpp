@@ -40,6 +40,14 @@ std::vector<SurfaceType> types_named(const std::string& name) {
   throw InputError("there is no kind of surface named '" + name + "'" + suggestion(name, known));
 }
 
+/// Ground surfaces of buildings face down, into the ground: nobody asks for their light.
+bool is_underside(const TriangleSoup& soup, std::uint32_t triangle, SurfaceType type) {
+  if (type != SurfaceType::Ground && type != SurfaceType::Floor) return false;
+  const auto& [a, b, c] = soup.triangles[triangle];
+  const Vec3 n = cross(soup.vertices[b] - soup.vertices[a], soup.vertices[c] - soup.vertices[a]);
+  return !(n.z > 0.0);
+}
+
 }  // namespace
 
 SurfaceType broad_type(const TriangleSoup& soup, std::uint32_t triangle) {
@@ -85,7 +93,9 @@ SensorGrid LitScene::grid(std::span<const std::string> surfaces, double spacing_
   std::vector<std::uint32_t> own, given;
   double given_area = 0.0;
   for (std::uint32_t t = 0; t < soup_->size(); ++t) {
-    if (!wanted[static_cast<std::size_t>(broad_type(*soup_, t))]) continue;
+    const SurfaceType type = broad_type(*soup_, t);
+    if (!wanted[static_cast<std::size_t>(type)]) continue;
+    if (is_underside(*soup_, t, type)) continue;
     if (scene_.objects[soup_->object[t]].id != kGroundObjectId) {
       own.push_back(t);
       continue;

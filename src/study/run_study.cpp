@@ -20,6 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kShare = 4.0;  // spacings over which sensors on a surface share reflected light
+
 ReadOptions read_options_of(const StudyScene& scene) {
   ReadOptions options;
   options.building_lod = scene.building_lod;
@@ -83,7 +85,7 @@ class StudyRun {
 
   void illuminate_surfaces(const StudyField& field) {
     const SensorGrid grid = lit_.grid(field.surfaces, field.spacing_m);
-    const IlluminanceResult result = light(grid.sensors);
+    const IlluminanceResult result = light(grid.sensors, kShare * field.spacing_m);
     FieldMesh mesh = field_of_grid(lit_, grid, result.values);
     mesh.texts.push_back({"time", {report_.time_text()}});
     write_vtp(place(field.name + ".vtp"), mesh);
@@ -92,7 +94,7 @@ class StudyRun {
 
   void illuminate_sensors(const StudySensors& sensors) {
     const SensorPoints points = read_sensor_file(sensors.file);
-    const IlluminanceResult result = light(lit_.to_local({points.position, points.normal}));
+    const IlluminanceResult result = light(lit_.to_local({points.position, points.normal}), 0.0);
     illuminance_table(points.position, points.normal, result.values)
         .write(place(sensors.name + ".csv"));
   }
@@ -100,7 +102,7 @@ class StudyRun {
   void map_ground(const StudyPlan& plan) {
     GroundPlan ground = ground_plan(lit_, plan.spacing_m);
     if (ground.sensors.size() == 0) return report_.note("the plan was left out: no open ground");
-    const IlluminanceResult result = light(ground.sensors);
+    const IlluminanceResult result = light(ground.sensors, kShare * ground.grid.cell_m);
     ground.fill(result.values);
     const Image8 map = plan_map(report_.plan_of(ground, result.values, plan));
     write_png(place("plan.png"), map, {.title = report_.title(), .time = report_.time_text(), .units = {}});
@@ -119,10 +121,11 @@ class StudyRun {
   }
 
  private:
-  IlluminanceResult light(const Sensors& sensors) {
+  IlluminanceResult light(const Sensors& sensors, double share_reflected_m) {
+    IlluminanceOptions options = illuminance_options_of(study_.calculation);
+    options.share_reflected_m = share_reflected_m;
     IlluminanceResult result =
-        illuminate(sensors, lit_.rays(), lit_.source(), illuminance_options_of(study_.calculation),
-                   progress_);
+        illuminate(sensors, lit_.rays(), lit_.source(), options, progress_);
     outcome_.out_of_tolerance += result.out_of_tolerance;
     report_.add_light(result);
     return result;

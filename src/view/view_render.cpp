@@ -97,6 +97,7 @@ IlluminanceOptions options_of(const ViewRequest& request) {
   IlluminanceOptions options;
   options.tolerance_pct = std::min(100.0, 12.0 * request.tolerance_pct);
   options.bounces = 0;
+  options.first_slices = 8;  // averaged with the pixels around
   options.seed = request.seed;
   return options;
 }
@@ -106,15 +107,16 @@ std::uint64_t add_reflected(const ViewRequest& request, const ShadingPoints& poi
                             SensorIlluminance& light, Progress& progress) {
   const std::vector<std::size_t> chosen = block_representatives(points);
   Sensors sensors;
-  std::vector<double> direct;
+  IlluminanceOptions::KnownDirect direct;
   for (const std::size_t i : chosen) {
     sensors.position.push_back(points.sensors.position[i]);
     sensors.normal.push_back(points.sensors.normal[i]);
-    direct.push_back(light.sun_lux[i] + light.sky_lux[i]);
+    direct.lux.push_back(light.sun_lux[i] + light.sky_lux[i]);
+    direct.sky_view.push_back(light.sky_view[i]);
   }
   IlluminanceOptions options = options_of(request);
   options.bounces = request.bounces;
-  options.known_direct_lux = &direct;
+  options.known_direct = &direct;
   // Some twenty representatives are blended in a pixel.
   const IlluminanceResult reflected = illuminate(sensors, rays, source, options, progress);
   const ReflectedBlend blend(points, chosen, reflected.values);
