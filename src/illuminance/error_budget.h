@@ -14,9 +14,9 @@ namespace tenku {
 class ErrorBudget {
  public:
   /// @param tolerance_pct      percent of each value
-  /// @param unobstructed_lux   values below 0.1 % of it are held to that much instead
-  ErrorBudget(double tolerance_pct, double unobstructed_lux)
-      : relative_(tolerance_pct / 100.0), floor_lux_(0.001 * unobstructed_lux) {}
+  /// @param floor_lux          lower values are held to it instead
+  ErrorBudget(double tolerance_pct, double floor_lux)
+      : relative_(tolerance_pct / 100.0), floor_lux_(floor_lux) {}
 
   double allowed_lux(double value_lux) const { return relative_ * std::max(value_lux, floor_lux_); }
 

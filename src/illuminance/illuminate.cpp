@@ -130,6 +130,7 @@ IlluminanceResult illuminate_sharing(const Sensors& sensors, const RayVisibility
   }
   IlluminanceOptions reflected = options;
   reflected.share_reflected_m = 0.0;
+  reflected.floor_share = 0.01;  // what is shared is not exact to that in any case
   reflected.tolerance_pct = std::min(100.0, kBlended * options.tolerance_pct);
   reflected.known_direct = &known;
   const IlluminanceResult some = illuminate(few, rays, source, reflected, progress);
@@ -148,7 +149,8 @@ IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
   if (options.share_reflected_m > 0.0 && options.bounces > 0 && !options.known_direct) {
     return illuminate_sharing(sensors, rays, source, options, progress);
   }
-  const ErrorBudget budget(options.tolerance_pct, source.unobstructed_lux());
+  const ErrorBudget budget(options.tolerance_pct,
+                           options.floor_share * source.unobstructed_lux());
   IlluminanceResult result;
   result.values = SensorIlluminance(sensors.size());
   std::atomic<std::uint64_t> rays_sent{0};

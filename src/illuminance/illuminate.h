@@ -17,6 +17,7 @@ struct IlluminanceOptions {
   double tolerance_pct = 2.0;
   int bounces = 5;          ///< diffuse ones, of `reflected`; 0 for none
   std::uint64_t seed = 1;
+  double floor_share = 0.001;  ///< of the unobstructed illuminance: lower values are held to it
   int first_slices = 16;    ///< of the sky, a sensor; a power of two
   int most_slices = 4096;   ///< of the sky, a sensor
   int most_paths = 16384;   ///< of reflected light, a sensor

@@ -1,6 +1,7 @@
 #include "illuminance/reflected_sharing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/parallel.h"
@@ -11,7 +12,6 @@ namespace {
 
 constexpr double kNormalSteps = 50.0;   // of a normal's component that counts as one plane
 constexpr double kOffsetSteps = 2.0;    // a metre
-constexpr double kLeast_lux = 1.0;      // below it a relative error says nothing
 
 }  // namespace
 
@@ -28,9 +28,9 @@ ReflectedSharing::Cell ReflectedSharing::cell_of(std::size_t sensor) const {
   const Vec3 n = sensors_.normal[sensor], p = sensors_.position[sensor];
   std::uint64_t plane = 0;
   // A gently rolling ground is one surface: only what is steep is told apart by its offset.
-  const double offset = std::abs(n.z) > 0.9 ? 0.0 : kOffsetSteps * dot(n, p);
+  const double offset = is_flat(sensor) ? 0.0 : kOffsetSteps * dot(n, p);
   for (const double part : {kNormalSteps * n.x, kNormalSteps * n.y, kNormalSteps * n.z, offset}) {
-    const double step = std::abs(n.z) > 0.9 ? part / 10.0 : part;
+    const double step = is_flat(sensor) ? part / 10.0 : part;
     plane = mix_bits(plane + static_cast<std::uint64_t>(std::llround(step)));
   }
   const auto index = [&](double x) { return static_cast<std::int64_t>(std::floor(x / distance_m_)); };
@@ -76,19 +76,33 @@ ReflectedSharing::Blend ReflectedSharing::blend_at(std::size_t sensor, bool with
   return blend;
 }
 
+bool ReflectedSharing::is_flat(std::size_t sensor) const {
+  return std::abs(sensors_.normal[sensor].z) > 0.9;
+}
+
+double ReflectedSharing::missed_lux(bool flat, const SensorIlluminance& of_representatives,
+                                    const RayVisibility& rays) const {
+  std::vector<double> squares(representative_.size(), -1.0);
+  parallel_for(representative_.size(), 256, [&](IndexRange range) {
+    for (std::size_t r = range.begin; r < range.end; ++r) {
+      if (is_flat(representative_[r]) != flat) continue;
+      const Blend blend = blend_at(representative_[r], true, of_representatives, rays);
+      if (!(blend.weight > 0.0)) continue;
+      const double missed = blend.lux - of_representatives.reflected_lux[r];
+      squares[r] = missed * missed;
+    }
+  });
+  double sum = 0.0, count = 0.0;
+  for (const double square : squares) {
+    if (square >= 0.0) sum += square, count += 1.0;
+  }
+  return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+}
+
 void ReflectedSharing::spread(const SensorIlluminance& of_representatives,
                               const RayVisibility& rays, SensorIlluminance& all) const {
-  const double count = static_cast<double>(representative_.size());
-  const double squares = parallel_sum(representative_.size(), 256, [&](IndexRange range) {
-    double sum = 0.0;
-    for (std::size_t r = range.begin; r < range.end; ++r) {
-      const Blend blend = blend_at(representative_[r], true, of_representatives, rays);
-      const double truth = of_representatives.reflected_lux[r];
-      if (blend.weight > 0.0) sum += std::pow((blend.lux - truth) / std::max(truth, kLeast_lux), 2);
-    }
-    return sum;
-  });
-  const double relative = std::min(1.0, std::sqrt(squares / std::max(count, 1.0)));
+  const std::array<double, 2> missed{missed_lux(false, of_representatives, rays),
+                                     missed_lux(true, of_representatives, rays)};
   constexpr double k95 = 1.96;
   parallel_for(sensors_.size(), 256, [&](IndexRange range) {
     for (std::size_t s = range.begin; s < range.end; ++s) {
@@ -98,7 +112,7 @@ void ReflectedSharing::spread(const SensorIlluminance& of_representatives,
         blend = {of_representatives.reflected_lux[own], of_representatives.error_lux[own], 1.0};
       }
       all.reflected_lux[s] = blend.lux;
-      const double shared = representative_[own] == s ? 0.0 : k95 * relative * blend.lux;
+      const double shared = representative_[own] == s ? 0.0 : k95 * missed[is_flat(s)];
       all.error_lux[s] = std::sqrt(all.error_lux[s] * all.error_lux[s] +
                                    blend.error_lux * blend.error_lux + shared * shared);
     }

@@ -17,8 +17,8 @@ namespace tenku {
 /// nearness.
 ///
 /// Error    measured, not assumed: each representative is also predicted from those around it, and
-///          the root mean square of what that misses, relative to the value, goes into the interval of
-///          every sensor that was not calculated itself.
+///          the root mean square of what that misses, apart for flat and steep surfaces, goes into
+///          the interval of every sensor that was not calculated itself.
 class ReflectedSharing {
  public:
   ReflectedSharing(const Sensors& sensors, double distance_m);
@@ -40,6 +40,9 @@ class ReflectedSharing {
     double lux = 0.0, error_lux = 0.0, weight = 0.0;
   };
   Cell cell_of(std::size_t sensor) const;
+  bool is_flat(std::size_t sensor) const;
+  double missed_lux(bool flat, const SensorIlluminance& of_representatives,
+                    const RayVisibility& rays) const;
   static std::uint64_t key_of(const Cell& cell);
   Blend blend_at(std::size_t sensor, bool without_itself, const SensorIlluminance& results,
                  const RayVisibility& rays) const;

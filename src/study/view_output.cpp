@@ -88,7 +88,7 @@ void place_overview(const LitScene& lit, PerspectiveView& view) {
 }
 
 Image8 picture_of(const RenderedView& view, ViewKind kind) {
-  return kind == ViewKind::LuminanceImage ? tone_map(view.luminance) : with_legend(view, kind);
+  return kind == ViewKind::LuminanceImage ? tone_map(view.luminance, {.curve = ToneCurve::Reinhard, .ev100 = {}, .key = 0.28}) : with_legend(view, kind);
 }
 
 void write_view(const std::filesystem::path& path, const RenderedView& view, ViewKind kind,

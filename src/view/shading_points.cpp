@@ -44,7 +44,8 @@ std::uint64_t surface_key(const RayVisibility& rays, std::uint32_t triangle, Vec
 
 class PixelTracer {
  public:
-  PixelTracer(const RayVisibility& rays, const SkyModel* sky) : rays_(rays), sky_(sky) {}
+  PixelTracer(const RayVisibility& rays, const Backdrop& backdrop)
+      : rays_(rays), backdrop_(backdrop) {}
 
   void trace(Vec3 origin, Vec3 direction, PixelPoints& pixel) {
     Rgb weight = Rgb::grey(1.0 / kRaysPerPixel);
@@ -54,7 +55,7 @@ class PixelTracer {
       const double reach = hit ? hit->distance_m : std::numeric_limits<double>::infinity();
       weight = rays_.glass_transmission(origin, direction, reach) * weight;
       if (!hit) {
-        if (sky_ != nullptr) pixel.background = pixel.background + weight * sky_->colour(direction);
+        pixel.background = pixel.background + weight * backdrop_.colour(direction);
         return;
       }
       const Vec3 face = rays_.normal(hit->triangle);
@@ -89,7 +90,7 @@ class PixelTracer {
   }
 
   const RayVisibility& rays_;
-  const SkyModel* sky_;
+  const Backdrop& backdrop_;
 };
 
 void append(const PixelPoints& pixel, std::uint32_t index, ShadingPoints& points) {
@@ -111,7 +112,7 @@ void append(const PixelPoints& pixel, std::uint32_t index, ShadingPoints& points
 }  // namespace
 
 ShadingPoints find_shading_points(const PerspectiveCamera& camera, const RayVisibility& rays,
-                                  const SkyModel* sky, Progress& progress) {
+                                  const Backdrop& backdrop, Progress& progress) {
   const auto width = static_cast<std::size_t>(camera.width());
   const auto height = static_cast<std::size_t>(camera.height());
   std::vector<PixelPoints> pixels(width * height);
@@ -119,7 +120,7 @@ ShadingPoints find_shading_points(const PerspectiveCamera& camera, const RayVisi
   progress.begin("view rays", height);
   parallel_for(height, 4, [&](IndexRange rows) {
     progress.stop_if_cancelled();
-    PixelTracer tracer(rays, sky);
+    PixelTracer tracer(rays, backdrop);
     for (std::size_t y = rows.begin; y < rows.end; ++y) {
       for (std::size_t x = 0; x < width; ++x) {
         for (const auto& [dx, dy] : kPlace) {

@@ -54,8 +54,19 @@ struct ShadingPoints {
   }
 };
 
+/// What is seen where a ray meets nothing.
+struct Backdrop {
+  const SkyModel* sky = nullptr;  ///< above the horizon; null: black
+  Rgb below_horizon{};            ///< cd/m2
+
+  Rgb colour(Vec3 direction) const {
+    if (direction.z < 0.0) return below_horizon;
+    return sky != nullptr ? sky->colour(direction) : Rgb{};
+  }
+};
+
 /// Four rays a pixel; those on one surface become one point.
 ShadingPoints find_shading_points(const PerspectiveCamera& camera, const RayVisibility& rays,
-                                  const SkyModel* sky, Progress& progress);
+                                  const Backdrop& backdrop, Progress& progress);
 
 }  // namespace tenku

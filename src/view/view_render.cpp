@@ -97,6 +97,7 @@ IlluminanceOptions options_of(const ViewRequest& request) {
   IlluminanceOptions options;
   options.tolerance_pct = std::min(100.0, 12.0 * request.tolerance_pct);
   options.bounces = 0;
+  options.floor_share = 0.01;  // darker is black in any picture
   options.first_slices = 8;  // averaged with the pixels around
   options.seed = request.seed;
   return options;
@@ -126,6 +127,12 @@ std::uint64_t add_reflected(const ViewRequest& request, const ShadingPoints& poi
     light.error_lux[i] = std::hypot(light.error_lux[i], error_lux);
   }
   return reflected.rays;
+}
+
+/// The sky, and beyond the edge of the scene an open ground of the usual reflectance.
+Backdrop backdrop_of(const DaylightSource& source, const SkyModel* sky) {
+  constexpr double kGroundReflectance = 0.2;  // as gensky and most codes take it
+  return {sky, Rgb::grey(kGroundReflectance * source.unobstructed_lux() / kPi)};
 }
 
 void compose(const ShadingPoints& points, const SensorIlluminance& light,
@@ -163,7 +170,7 @@ void compose(const ShadingPoints& points, const SensorIlluminance& light,
 RenderedView render_view(const ViewRequest& request, const RayVisibility& rays,
                          const DaylightSource& source, const SkyModel* sky, Progress& progress) {
   const PerspectiveCamera camera(request.view);
-  const ShadingPoints points = find_shading_points(camera, rays, sky, progress);
+  const ShadingPoints points = find_shading_points(camera, rays, backdrop_of(source, sky), progress);
   IlluminanceResult light = illuminate(points.sensors, rays, source, options_of(request), progress);
   smooth_sky(points, light.values);
   RenderedView result;
