@@ -18,6 +18,7 @@ namespace tenku {
 namespace {
 
 constexpr std::size_t kGrain = 16;  // sensors a task
+constexpr double kSureOfDark = 512.0;  // slices times tolerance after which no sky is believed
 constexpr double kBlended = 2.5;    // errors of about nine blended representatives in one of their mean
 
 void check_options(const IlluminanceOptions& options) {
@@ -54,7 +55,7 @@ class SensorWork {
       sun_.refine();
       do {
         sky_.refine();
-      } while (sky_.may_miss_openings());
+      } while (sky_.may_miss_openings() && sky_.slices() * options_.tolerance_pct < kSureOfDark);
       reflected_.set_way(ReflectedLight::way_for(sky_.sky_view()));
     }
     if (options_.bounces > 0) reflected_.refine();
