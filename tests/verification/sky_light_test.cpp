@@ -24,6 +24,7 @@ void expect_within(const std::vector<ReferenceCase>& cases, double tolerance_pct
     const auto result = illuminate(*one.scene, one.sensors, *one.source,
                                    testing_support::direct_options(tolerance_pct));
     for (std::size_t i = 0; i < one.ratio.size(); ++i) {
+      if (std::getenv("DUMP")) std::printf("D %g %s s%zu ref %.6g err%% %.4g int%% %.4g rays %llu\n", tolerance_pct, one.name.c_str(), i, one.ratio[i], 100*(result.values.total_lux(i)/open/one.ratio[i]-1), 100*result.values.error_lux[i]/open/one.ratio[i], (unsigned long long)result.rays/one.ratio.size());
       const double ratio = result.values.total_lux(i) / open;
       const double error = 100.0 * (ratio - one.ratio[i]) / std::max(one.ratio[i], 0.001);
       const std::string where = one.name + " sensor " + std::to_string(i);
