@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kRareCheck = 4;       // one slice in so many is checked while all goes well
 constexpr int kDenseChecks = 4;     // rays a checked slice, where the checks dominate the error
-constexpr double kPiece = 0.1;      // radians of altitude over which panes count as one angle
+constexpr double kPiece = 0.05;      // radians of altitude over which panes count as one angle
 constexpr double kWorthHalving = 0.2;  // of the worst gap's error
 constexpr std::size_t kLookInto = 8;   // one gap in so many is halved in any case
 
@@ -54,7 +54,7 @@ void SensorSky::refine() {
     halve_gaps();
   } else {
     double_evenly();
-    resolved_ = effort_.halving && is_resolved();
+    resolved_ = effort_.halving && is_resolved() && has_sure_claims();
   }
   summarise();
 }
@@ -140,7 +140,14 @@ bool SensorSky::is_resolved() {
     seeing_ += slice_[i].ranges > 0;
     before = step;
   }
-  return crowded == 0 && 4 * steps <= slice_.size() && seeing_ >= kSeeing;
+  return slices() >= kFewestToTrust && crowded == 0 && 4 * steps <= slice_.size() &&
+         seeing_ >= kSeeing;
+}
+
+/// Whether the checks have nothing more to tell: slices of halved gaps are not checked.
+bool SensorSky::has_sure_claims() const {
+  constexpr double kSure = 1e-4;  // of the value
+  return checks_.lux_squared <= square(kSure * lux_) && (table_ != nullptr || checks_.view == 0.0);
 }
 
 double SensorSky::width_after(std::size_t i) const {

@@ -74,6 +74,7 @@ class SensorSky {
   std::uint64_t rays_sent() const { return tracer_.rays_sent(); }
 
   static constexpr int kSeeing = 4;            ///< slices that must see the sky to trust steps
+  static constexpr int kFewestToTrust = 68;    ///< slices, however smooth all looks
   static constexpr int kEnoughToBeDark = 256;  ///< slices, none of which sees the sky
   static constexpr double kScatter = 0.002;  // radians
 
@@ -131,6 +132,7 @@ class SensorSky {
   void double_evenly();
   void halve_gaps();
   bool is_resolved();
+  bool has_sure_claims() const;
   Slice make_slice(double azimuth_rad, int checks, double weight);
   void claim(Work& work);
   void check(const Work& work, int checks, double weight);
