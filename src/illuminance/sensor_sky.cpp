@@ -140,7 +140,7 @@ bool SensorSky::is_resolved() {
     seeing_ += slice_[i].ranges > 0;
     before = step;
   }
-  return slices() >= kFewestToTrust && crowded == 0 && 4 * steps <= slice_.size() &&
+  return slices() >= kFewestToHalve && crowded == 0 && 4 * steps <= slice_.size() &&
          seeing_ >= kSeeing;
 }
 

@@ -68,13 +68,17 @@ class SensorSky {
   double signed_lux() const { return lux_; }
   double sky_view() const { return sky_view_; }
   double variance() const { return variance_; }  ///< of `lux`, lux^2
-  /// Whether so few slices have seen the sky that there may be openings between them.
-  bool may_miss_openings() const { return seeing_ < kSeeing && slices() < kEnoughToBeDark; }
+  /// Whether there are so few slices, or so few that have seen the sky, that there may be things,
+  /// or openings, between them of which the variance knows nothing.
+  bool may_miss_openings() const {
+    return slices() < kFewest || (seeing_ < kSeeing && slices() < kEnoughToBeDark);
+  }
   int slices() const { return static_cast<int>(slice_.size()); }
   std::uint64_t rays_sent() const { return tracer_.rays_sent(); }
 
   static constexpr int kSeeing = 4;            ///< slices that must see the sky to trust steps
-  static constexpr int kFewestToTrust = 68;    ///< slices, however smooth all looks
+  static constexpr int kFewest = 34;           ///< slices, however smooth all looks
+  static constexpr int kFewestToHalve = 68;
   static constexpr int kEnoughToBeDark = 256;  ///< slices, none of which sees the sky
   static constexpr double kScatter = 0.002;  // radians
 
