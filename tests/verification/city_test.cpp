@@ -76,13 +76,13 @@ TEST(Interval, HoldsTheConvergedValuesOfATown) {
 }
 
 TEST(Illuminate, GivesTheSameBitsForAnyNumberOfThreadsAndAgain) {
-  Town town = random_town(200, 300.0, 150);
+  Town town = random_town(60, 150.0, 40);
   town.scene.materials[0] = testing_support::grey_material(0.4);
   auto source = testing_support::source_of(*testing_support::numbered_sky(12, 40, 180));
   source.sun.direction = direction_from(Angle::degrees(180), Angle::degrees(40));
   source.sun.normal_illuminance = Illuminance(80000.0);
-  auto options = testing_support::direct_options(5.0);
-  options.bounces = 3;
+  auto options = testing_support::direct_options(10.0);
+  options.bounces = 2;
   const auto run = [&](unsigned threads) {
     const ThreadLimit limit(threads);
     return illuminate(town.scene, town.sensors, source, options);
