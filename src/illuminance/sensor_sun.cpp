@@ -47,8 +47,8 @@ void SensorSun::refine() {
   const double n = sent_, normal_lux = sun_.normal_illuminance.value();
   lux_ = normal_lux * lit_ / n;
   const double seen = whole_ > 0.0 ? seen_ / whole_ : 0.0;
-  const double spread = 4.0 * std::max(seen, 1.0 / n) * std::max(1.0 - seen, 1.0 / n);
-  variance_ = std::pow(normal_lux * whole_ / n, 2) * 0.19 / std::pow(n, 1.5) * spread;
+  const double chord = std::cbrt(4.0 * std::max(seen, 1.0 / n) * std::max(1.0 - seen, 1.0 / n));
+  variance_ = std::pow(normal_lux * whole_ / n, 2) * 0.19 / std::pow(n, 1.5) * chord;
 }
 
 void SensorSun::ask_rim() {
