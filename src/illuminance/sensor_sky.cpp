@@ -8,9 +8,9 @@
 namespace tenku {
 namespace {
 
-constexpr int kRareCheck = 4;       // one slice in so many is checked while all goes well
-constexpr int kDenseChecks = 4;     // rays a checked slice, where the checks dominate the error
-constexpr double kPiece = 0.05;      // radians of altitude over which panes count as one angle
+constexpr int kRareCheck = 4;          // one slice in so many is checked while all goes well
+constexpr int kDenseChecks = 4;        // rays a checked slice, where the checks dominate the error
+constexpr double kPiece = 0.05;        // radians of altitude over which panes count as one angle
 constexpr double kWorthHalving = 0.2;  // of the worst gap's error
 constexpr std::size_t kLookInto = 8;   // one gap in so many is halved in any case
 
@@ -42,8 +42,13 @@ struct SensorSky::Work {
 
 SensorSky::SensorSky(const RayVisibility& rays, const SkyTable* table, Vec3 position, Vec3 normal,
                      SampleRandom random, Effort effort)
-    : rays_(rays), table_(table), normal_(normal), random_(random), effort_(effort),
-      tracer_(rays, position + rays.lift_m() * normal), start_(2.0 * kPi * random_.uniform()) {}
+    : rays_(rays),
+      table_(table),
+      normal_(normal),
+      random_(random),
+      effort_(effort),
+      tracer_(rays, position + rays.lift_m() * normal),
+      start_(2.0 * kPi * random_.uniform()) {}
 
 SensorSky::SensorSky(const RayVisibility& rays, const SkyTable* table, Vec3 position, Vec3 normal,
                      SampleRandom random)
@@ -103,8 +108,8 @@ void SensorSky::halve_gaps() {
     const Slice middle =
         make_slice(slice_[i].azimuth + width * (0.4 + 0.2 * random_.uniform()), 0, 0.0);
     const bool expected_smooth = gap_between(at(i), at(i + 1)) != Gap::Step;
-    if (expected_smooth && (gap_between(at(i), middle) == Gap::Step ||
-                            gap_between(middle, at(i + 1)) == Gap::Step)) {
+    if (expected_smooth &&
+        (gap_between(at(i), middle) == Gap::Step || gap_between(middle, at(i + 1)) == Gap::Step)) {
       surprise_variance_ += square(width * (middle.lux - 0.5 * (at(i).lux + at(i + 1).lux)));
     }
     refined.push_back(middle);
@@ -206,7 +211,8 @@ double SensorSky::misfit_at(std::size_t i) const {
 }
 
 double SensorSky::misfit_variance(std::size_t i) const {
-  const double width = 0.5 * (width_after(i) + width_after((i + slice_.size() - 1) % slice_.size()));
+  const double width =
+      0.5 * (width_after(i) + width_after((i + slice_.size() - 1) % slice_.size()));
   return square(width * misfit_at(i)) / 120.0;
 }
 

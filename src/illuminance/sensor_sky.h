@@ -60,7 +60,8 @@ class SensorSky {
   SensorSky(const RayVisibility& rays, const SkyTable* table, Vec3 position, Vec3 normal,
             SampleRandom random);
 
-  /// Adds slices: as many as there are, or those that halving needs (the first call makes the first).
+  /// Adds slices: as many as there are, or those that halving needs (the first call makes the
+  /// first).
   void refine();
 
   double lux() const { return lux_ > 0.0 ? lux_ : 0.0; }
@@ -76,11 +77,11 @@ class SensorSky {
   int slices() const { return static_cast<int>(slice_.size()); }
   std::uint64_t rays_sent() const { return tracer_.rays_sent(); }
 
-  static constexpr int kSeeing = 4;            ///< slices that must see the sky to trust steps
-  static constexpr int kFewest = 34;           ///< slices, however smooth all looks
+  static constexpr int kSeeing = 4;   ///< slices that must see the sky to trust steps
+  static constexpr int kFewest = 34;  ///< slices, however smooth all looks
   static constexpr int kFewestToHalve = 68;
   static constexpr int kEnoughToBeDark = 256;  ///< slices, none of which sees the sky
-  static constexpr double kScatter = 0.002;  // radians
+  static constexpr double kScatter = 0.002;    // radians
 
  private:
   /// What one slice gives, per radian of azimuth.
@@ -124,9 +125,7 @@ class SensorSky {
   const Slice& at(std::size_t i) const { return slice_[i % slice_.size()]; }
   double width_after(std::size_t i) const;
   Slopes slopes_at(std::size_t i) const;
-  bool is_smooth_after(std::size_t i) const {
-    return gap_between(at(i), at(i + 1)) == Gap::Smooth;
-  }
+  bool is_smooth_after(std::size_t i) const { return gap_between(at(i), at(i + 1)) == Gap::Smooth; }
   /// Difference of a slice from the polynomial through its neighbours; 0 where it has none.
   double misfit_at(std::size_t i) const;
   /// Variance that the misfit of a slice tells of.

@@ -16,8 +16,12 @@ Vec3 direction_on_disc(const SolarDisc& sun, const TangentFrame& frame, double u
 
 SensorSun::SensorSun(const RayVisibility& rays, const SolarDisc& sun, Vec3 position, Vec3 normal,
                      std::uint64_t scramble)
-    : rays_(rays), sun_(sun), origin_(position + rays.lift_m() * normal), normal_(normal),
-      frame_(tangent_frame(sun.direction)), scramble_(scramble),
+    : rays_(rays),
+      sun_(sun),
+      origin_(position + rays.lift_m() * normal),
+      normal_(normal),
+      frame_(tangent_frame(sun.direction)),
+      scramble_(scramble),
       settled_(!(sun.normal_illuminance > Illuminance(0.0)) ||
                dot(normal, sun.direction) < -std::sin(sun.angular_radius.in_radians()) ||
                sun.direction.z < -std::sin(sun.angular_radius.in_radians())) {}

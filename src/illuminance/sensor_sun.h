@@ -15,10 +15,10 @@ namespace tenku {
 /// wholly hidden. Otherwise rays are spread over it by an Owen-scrambled Sobol sequence.
 ///
 /// Error    a straight edge that no rim ray sees cuts off at most 0.16 % of the disc. In a
-///          penumbra the edge of the shadow crosses about sqrt(n) of n equal cells of the disc, each with a
-///          variance of at most 1/6 of its square: variance 0.19 / n^1.5 of a half-covered disc.
-///          Otherwise in proportion to the chord: near the rim it goes as the cube root of what it
-///          cuts off.
+///          penumbra the edge of the shadow crosses about sqrt(n) of n equal cells of the disc,
+///          each with a variance of at most 1/6 of its square: variance 0.19 / n^1.5 of a
+///          half-covered disc. Otherwise in proportion to the chord: near the rim it goes as the
+///          cube root of what it cuts off.
 class SensorSun {
  public:
   SensorSun(const RayVisibility& rays, const SolarDisc& sun, Vec3 position, Vec3 normal,

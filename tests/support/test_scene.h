@@ -88,8 +88,7 @@ inline std::unique_ptr<SkyModel> numbered_sky(int type, double sun_altitude_deg,
                                               double sun_azimuth_deg) {
   if (type == 16) return std::make_unique<CieOvercastSky>(Luminance(3000.0));
   return std::make_unique<CieGeneralSky>(
-      type,
-      direction_from(Angle::degrees(sun_azimuth_deg), Angle::degrees(sun_altitude_deg)),
+      type, direction_from(Angle::degrees(sun_azimuth_deg), Angle::degrees(sun_altitude_deg)),
       Luminance(3000.0));
 }
 

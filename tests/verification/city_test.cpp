@@ -66,9 +66,10 @@ TEST(Interval, HoldsTheConvergedValuesOfATown) {
                        result.values.error_lux[i]);
         }
       }
-      std::printf("[ MEASURED ] interval, town, sky %d, tolerance %g: holds %.1f %% of %zu "
-                  "(%.0f rays a sensor)\n",
-                  sky, tolerance, coverage.pct(), coverage.count(), rays);
+      std::printf(
+          "[ MEASURED ] interval, town, sky %d, tolerance %g: holds %.1f %% of %zu "
+          "(%.0f rays a sensor)\n",
+          sky, tolerance, coverage.pct(), coverage.count(), rays);
       EXPECT_GE(coverage.pct(), 93.0);
       EXPECT_LE(coverage.pct(), 99.0);
     }

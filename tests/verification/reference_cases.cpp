@@ -71,13 +71,15 @@ void with_hole(Span u, Span v, Span hole_u, Span hole_v, const Place& place) {
 }
 
 void add_south_wall(TestScene& scene, Span hole_x, Span hole_z) {
-  with_hole({0, 4}, {0, 3}, hole_x, hole_z,
-            [&](Span x, Span z) { scene.wall({x.low, 0, x.high, 0}, z.low, z.high); });
+  with_hole({0, 4}, {0, 3}, hole_x, hole_z, [&](Span x, Span z) {
+    scene.wall({x.low, 0, x.high, 0}, z.low, z.high);
+  });
 }
 
 void add_ceiling(TestScene& scene, Span hole) {
-  with_hole({0, 4}, {0, 4}, hole, hole,
-            [&](Span x, Span y) { scene.level({x.low, y.low, x.high, y.high}, 3); });
+  with_hole({0, 4}, {0, 4}, hole, hole, [&](Span x, Span y) {
+    scene.level({x.low, y.low, x.high, y.high}, 3);
+  });
 }
 
 /// The room of CIE 171, 4 x 4 x 3 m, with the opening and the mask of one case.

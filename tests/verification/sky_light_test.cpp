@@ -56,8 +56,8 @@ TEST(SkyLight, SkyFactorBesideABoxIsThatOfTheClosedForm) {
   WorstError worst("sky factor beside a box, tolerance 0.1, of the whole sky");
   for (const ReferenceCase& one : testing_support::obstructed_cases()) {
     if (one.name.rfind("box", 0) != 0) continue;
-    const auto result = illuminate(*one.scene, one.sensors, *one.source,
-                                   testing_support::direct_options(0.1));
+    const auto result =
+        illuminate(*one.scene, one.sensors, *one.source, testing_support::direct_options(0.1));
     for (std::size_t i = 0; i < one.ratio.size(); ++i) {
       worst.add(result.values.sky_view[i] - one.ratio[i], one.name);
     }
@@ -74,8 +74,7 @@ void measure_coverage(const std::vector<ReferenceCase>& cases, const std::string
         const auto result = illuminate(*one.scene, one.sensors, *one.source,
                                        testing_support::direct_options(tolerance, seed));
         for (std::size_t i = 0; i < one.ratio.size(); ++i) {
-          coverage.add(result.values.total_lux(i), one.ratio[i] * open,
-                       result.values.error_lux[i]);
+          coverage.add(result.values.total_lux(i), one.ratio[i] * open, result.values.error_lux[i]);
         }
       }
     }

@@ -19,8 +19,7 @@ using testing_support::WorstError;
 
 DaylightSource sun_alone(double altitude_deg, double azimuth_deg) {
   DaylightSource source;
-  source.sun.direction =
-      direction_from(Angle::degrees(azimuth_deg), Angle::degrees(altitude_deg));
+  source.sun.direction = direction_from(Angle::degrees(azimuth_deg), Angle::degrees(altitude_deg));
   source.sun.normal_illuminance = Illuminance(80000.0);
   return source;
 }
@@ -64,8 +63,7 @@ TEST(SunLight, IsWholeOutsideTheShadowOfABoxAndNoneInsideIt) {
       sensors.normal.push_back(kZenith);
       lit.push_back(depth < 0.0);
     }
-    const auto result =
-        illuminate(scene, sensors, source, testing_support::direct_options(1.0));
+    const auto result = illuminate(scene, sensors, source, testing_support::direct_options(1.0));
     const double whole = 80000.0 * std::sin(altitude * kPi / 180.0);
     for (std::size_t i = 0; i < sensors.size(); ++i) {
       worst.add((result.values.total_lux(i) - (lit[i] ? whole : 0.0)) / whole,
