@@ -1,18 +1,18 @@
 #include "illuminance/sensor_sky.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
 namespace tenku {
 namespace {
 
-constexpr int kRareCheck = 4;       // one slice in so many is checked while all goes well
-constexpr int kDenseChecks = 4;     // rays a checked slice, where the checks dominate the error
-constexpr double kPiece = 0.1;      // radians of altitude over which panes count as one angle
+constexpr int kRareCheck = 4;          // one slice in so many is checked while all goes well
+constexpr int kDenseChecks = 4;        // rays a checked slice, where the checks dominate the error
+constexpr double kPiece = 0.05;        // radians of altitude over which panes count as one angle
 constexpr double kWorthHalving = 0.2;  // of the worst gap's error
 constexpr std::size_t kLookInto = 8;   // one gap in so many is halved in any case
-constexpr double kSmoothShare = 0.05;  // of the correction for the slopes: what is wrong with it
 
 constexpr double square(double x) { return x * x; }
 
@@ -42,8 +42,13 @@ struct SensorSky::Work {
 
 SensorSky::SensorSky(const RayVisibility& rays, const SkyTable* table, Vec3 position, Vec3 normal,
                      SampleRandom random, Effort effort)
-    : rays_(rays), table_(table), normal_(normal), random_(random), effort_(effort),
-      tracer_(rays, position + rays.lift_m() * normal), start_(2.0 * kPi * random_.uniform()) {}
+    : rays_(rays),
+      table_(table),
+      normal_(normal),
+      random_(random),
+      effort_(effort),
+      tracer_(rays, position + rays.lift_m() * normal),
+      start_(2.0 * kPi * random_.uniform()) {}
 
 SensorSky::SensorSky(const RayVisibility& rays, const SkyTable* table, Vec3 position, Vec3 normal,
                      SampleRandom random)
@@ -54,7 +59,7 @@ void SensorSky::refine() {
     halve_gaps();
   } else {
     double_evenly();
-    resolved_ = effort_.halving && is_resolved();
+    resolved_ = effort_.halving && is_resolved() && has_sure_claims();
   }
   summarise();
 }
@@ -85,10 +90,9 @@ void SensorSky::halve_gaps() {
   const std::size_t count = slice_.size();
   std::vector<double> error(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const double width = width_after(i);
-    const double correction =
-        square(width) / 12.0 * (slopes_at((i + 1) % count).lux - slopes_at(i).lux);
-    error[i] = gap_error(gap_between(at(i), at(i + 1)), width, at(i + 1).lux - at(i).lux, correction);
+    const std::size_t next = (i + 1) % count;
+    error[i] = std::sqrt(gap_sum(i, slopes_at(i), slopes_at(next)).variance +
+                         0.5 * (misfit_variance(i) + misfit_variance(next)));
   }
   const double worst = *std::max_element(error.begin(), error.end());
   std::vector<Slice> refined;
@@ -104,8 +108,8 @@ void SensorSky::halve_gaps() {
     const Slice middle =
         make_slice(slice_[i].azimuth + width * (0.4 + 0.2 * random_.uniform()), 0, 0.0);
     const bool expected_smooth = gap_between(at(i), at(i + 1)) != Gap::Step;
-    if (expected_smooth && (gap_between(at(i), middle) == Gap::Step ||
-                            gap_between(middle, at(i + 1)) == Gap::Step)) {
+    if (expected_smooth &&
+        (gap_between(at(i), middle) == Gap::Step || gap_between(middle, at(i + 1)) == Gap::Step)) {
       surprise_variance_ += square(width * (middle.lux - 0.5 * (at(i).lux + at(i + 1).lux)));
     }
     refined.push_back(middle);
@@ -113,11 +117,20 @@ void SensorSky::halve_gaps() {
   slice_ = std::move(refined);
 }
 
-SensorSky::Gap SensorSky::gap_between(const Slice& a, const Slice& b) {
+/// Whether one outline goes on into the other, also from one object to the next.
+bool SensorSky::touch(OutlineEdge a, OutlineEdge b) const {
+  if (a.touches(b)) return true;
+  if (a.a == MeshAdjacency::kNone || b.a == MeshAdjacency::kNone) return false;
+  const auto& v = rays_.soup().vertices;
+  return v[a.a] == v[b.a] || v[a.a] == v[b.b] || v[a.b] == v[b.a] || v[a.b] == v[b.b];
+}
+
+SensorSky::Gap SensorSky::gap_between(const Slice& a, const Slice& b) const {
+  // A sensor that looks level sees along its own surface there: its light sets in like a sine.
+  if (a.is_behind != b.is_behind) return Gap::Kink;
   if (a.ranges != b.ranges || a.ranges > 1) return Gap::Step;
   if (a.low_edge == b.low_edge && a.high_edge == b.high_edge) return Gap::Smooth;
-  return a.low_edge.touches(b.low_edge) && a.high_edge.touches(b.high_edge) ? Gap::Kink
-                                                                            : Gap::Step;
+  return touch(a.low_edge, b.low_edge) && touch(a.high_edge, b.high_edge) ? Gap::Kink : Gap::Step;
 }
 
 /// Few steps, none next to another: then the slices show all there is, as far as they can tell.
@@ -132,7 +145,14 @@ bool SensorSky::is_resolved() {
     seeing_ += slice_[i].ranges > 0;
     before = step;
   }
-  return crowded == 0 && 4 * steps <= slice_.size() && seeing_ >= kSeeing;
+  return slices() >= kFewestToHalve && crowded == 0 && 4 * steps <= slice_.size() &&
+         seeing_ >= kSeeing;
+}
+
+/// Whether the checks have nothing more to tell: slices of halved gaps are not checked.
+bool SensorSky::has_sure_claims() const {
+  constexpr double kSure = 1e-4;  // of the value
+  return checks_.lux_squared <= square(kSure * lux_) && (table_ != nullptr || checks_.view == 0.0);
 }
 
 double SensorSky::width_after(std::size_t i) const {
@@ -140,23 +160,80 @@ double SensorSky::width_after(std::size_t i) const {
   return i + 1 < slice_.size() ? width : width + 2.0 * kPi;
 }
 
-/// Slopes at a slice, from the neighbours that no step separates from it.
+/// A parabola through three slices, or a line through two, all on smooth sides.
 SensorSky::Slopes SensorSky::slopes_at(std::size_t i) const {
   const std::size_t count = slice_.size(), before = (i + count - 1) % count;
-  const Slice &here = at(i), &left = at(before), &right = at(i + 1);
-  const double wl = width_after(before), wr = width_after(i);
-  double to_left = gap_between(left, here) != Gap::Step ? wr / (wl + wr) : 0.0;
-  double to_right = gap_between(here, right) != Gap::Step ? wl / (wl + wr) : 0.0;
-  // A parabola through three slices, or a line through two.
-  if (to_left == 0.0 && to_right > 0.0) to_right = 1.0;
-  if (to_right == 0.0 && to_left > 0.0) to_left = 1.0;
-  return {to_left * (here.lux - left.lux) / wl + to_right * (right.lux - here.lux) / wr,
-          to_left * (here.view - left.view) / wl + to_right * (right.view - here.view) / wr};
+  const bool left = is_smooth_after(before), right = is_smooth_after(i);
+  if (!left && !right) return {};
+  const auto rise = [&](std::size_t k) {  // slopes of the chord of a gap
+    const double width = width_after(k % count);
+    const Slice &a = at(k), &b = at(k + 1);
+    return Slopes{(b.lux - a.lux) / width, (b.view - a.view) / width, true};
+  };
+  const auto mix = [](double p, Slopes a, Slopes b) {
+    return Slopes{p * a.lux + (1.0 - p) * b.lux, p * a.view + (1.0 - p) * b.view, true};
+  };
+  if (left && right) {
+    const double wl = width_after(before), wr = width_after(i);
+    return mix(wr / (wl + wr), rise(before), rise(i));
+  }
+  const std::size_t near = right ? i : before;
+  const std::size_t next = right ? (i + 1) % count : (i + count - 2) % count;
+  if (!is_smooth_after(next)) return rise(near);
+  const double wn = width_after(near), wf = width_after(next);
+  return mix(1.0 + wn / (wn + wf), rise(near), rise(next));
 }
 
-double SensorSky::gap_error(Gap gap, double width, double height, double correction) {
-  if (gap == Gap::Step) return width * std::abs(height) / std::sqrt(12.0);
-  return (gap == Gap::Kink ? 1.0 : kSmoothShare) * std::abs(correction);
+double SensorSky::misfit_at(std::size_t i) const {
+  const std::size_t count = slice_.size();
+  if (count < 5) return 0.0;
+  std::array<double, 4> x{}, y{};
+  std::size_t points = 0;
+  const auto take = [&](std::size_t k, double distance) {
+    x[points] = distance;
+    y[points++] = at(k).lux;
+  };
+  const std::size_t b1 = (i + count - 1) % count, b2 = (i + count - 2) % count;
+  if (!is_smooth_after(b1) || !is_smooth_after(i)) return 0.0;
+  take(b1, -width_after(b1));
+  if (is_smooth_after(b2)) take(b2, -width_after(b1) - width_after(b2));
+  take(i + 1, width_after(i));
+  if (is_smooth_after((i + 1) % count)) take(i + 2, width_after(i) + width_after((i + 1) % count));
+  double expected = 0.0;  // Lagrange's polynomial at distance 0
+  for (std::size_t k = 0; k < points; ++k) {
+    double weight = 1.0;
+    for (std::size_t m = 0; m < points; ++m) {
+      if (m != k) weight *= x[m] / (x[m] - x[k]);
+    }
+    expected += weight * y[k];
+  }
+  return at(i).lux - expected;
+}
+
+double SensorSky::misfit_variance(std::size_t i) const {
+  const double width =
+      0.5 * (width_after(i) + width_after((i + slice_.size() - 1) % slice_.size()));
+  return square(width * misfit_at(i)) / 120.0;
+}
+
+SensorSky::GapSum SensorSky::gap_sum(std::size_t i, const Slopes& before,
+                                     const Slopes& after) const {
+  const Slice &here = at(i), &next = at(i + 1);
+  const Gap gap = gap_between(here, next);
+  const double width = width_after(i), bend = square(width) * (after.lux - before.lux);
+  GapSum sum{0.5 * width * (here.lux + next.lux), 0.5 * width * (here.view + next.view), 0.0};
+  if (!before.known || !after.known) {
+    // Nothing tells how either side goes on.
+    sum.variance = square(width * (next.lux - here.lux)) / 12.0;
+    return sum;
+  }
+  const double share = gap == Gap::Step ? 1.0 / 6.0 : 1.0 / 12.0;
+  sum.lux -= share * bend;
+  sum.view -= share * square(width) * (after.view - before.view);
+  const double height = next.lux - here.lux - 0.5 * width * (before.lux + after.lux);
+  if (gap == Gap::Step) sum.variance = square(width * height) / 12.0 + square(bend / 12.0);
+  if (gap == Gap::Kink) sum.variance = square(bend) / 720.0;
+  return sum;
 }
 
 SensorSky::Slice SensorSky::make_slice(double azimuth_rad, int checks, double weight) {
@@ -168,7 +245,8 @@ SensorSky::Slice SensorSky::make_slice(double azimuth_rad, int checks, double we
   Slice slice;
   slice.azimuth = azimuth_rad;
   slice.ranges = 1;
-  if (!(work.front.low < work.front.high)) return slice;
+  slice.is_behind = !(work.front.low < work.front.high);
+  if (slice.is_behind) return slice;
   if (table_ != nullptr) work.column = table_->column(azimuth_rad);
   work.visible = tracer_.trace({sine, cosine, 0.0}, work.front.low, work.front.high);
   claim(work);
@@ -255,17 +333,10 @@ SensorSky::Sum SensorSky::halved_sum() const {
   const Slopes first = before;
   for (std::size_t i = 0; i < slice_.size(); ++i) {
     const Slopes after = i + 1 < slice_.size() ? slopes_at(i + 1) : first;
-    const Slice &here = at(i), &next = at(i + 1);
-    const double width = width_after(i);
-    sum.lux += 0.5 * width * (here.lux + next.lux);
-    sum.view += 0.5 * width * (here.view + next.view);
-    const Gap gap = gap_between(here, next);
-    const double correction = square(width) / 12.0 * (after.lux - before.lux);
-    if (gap != Gap::Step) {
-      sum.lux -= correction;
-      sum.view -= square(width) / 12.0 * (after.view - before.view);
-    }
-    sum.variance += square(gap_error(gap, width, next.lux - here.lux, correction));
+    const GapSum gap = gap_sum(i, before, after);
+    sum.lux += gap.lux;
+    sum.view += gap.view;
+    sum.variance += gap.variance + misfit_variance(i);
     before = after;
   }
   sum.variance += surprise_variance_;

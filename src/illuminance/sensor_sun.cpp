@@ -16,8 +16,12 @@ Vec3 direction_on_disc(const SolarDisc& sun, const TangentFrame& frame, double u
 
 SensorSun::SensorSun(const RayVisibility& rays, const SolarDisc& sun, Vec3 position, Vec3 normal,
                      std::uint64_t scramble)
-    : rays_(rays), sun_(sun), origin_(position + rays.lift_m() * normal), normal_(normal),
-      frame_(tangent_frame(sun.direction)), scramble_(scramble),
+    : rays_(rays),
+      sun_(sun),
+      origin_(position + rays.lift_m() * normal),
+      normal_(normal),
+      frame_(tangent_frame(sun.direction)),
+      scramble_(scramble),
       settled_(!(sun.normal_illuminance > Illuminance(0.0)) ||
                dot(normal, sun.direction) < -std::sin(sun.angular_radius.in_radians()) ||
                sun.direction.z < -std::sin(sun.angular_radius.in_radians())) {}
@@ -47,8 +51,8 @@ void SensorSun::refine() {
   const double n = sent_, normal_lux = sun_.normal_illuminance.value();
   lux_ = normal_lux * lit_ / n;
   const double seen = whole_ > 0.0 ? seen_ / whole_ : 0.0;
-  const double spread = 4.0 * std::max(seen, 1.0 / n) * std::max(1.0 - seen, 1.0 / n);
-  variance_ = std::pow(normal_lux * whole_ / n, 2) * 0.19 / std::pow(n, 1.5) * spread;
+  const double chord = std::cbrt(4.0 * std::max(seen, 1.0 / n) * std::max(1.0 - seen, 1.0 / n));
+  variance_ = std::pow(normal_lux * whole_ / n, 2) * 0.19 / std::pow(n, 1.5) * chord;
 }
 
 void SensorSun::ask_rim() {

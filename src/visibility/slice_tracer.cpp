@@ -111,7 +111,9 @@ std::uint32_t SliceTracer::cut_near(std::uint32_t triangle) const {
 }
 
 double SliceTracer::find_end(double start, double limit, int sense, End& end) {
-  double at = start, beyond = 0.0, step_out = kBeyond;
+  // The first ray leaves a little higher: along the ground it would meet the very feet of things,
+  // which rounding may miss.
+  double at = start, beyond = kBeyond, step_out = kBeyond;
   end.edge = {};
   const auto passed = [&](double altitude) { return sense * (altitude - limit) >= 0.0; };
   const std::uint32_t known = cut_near(end.hint);
