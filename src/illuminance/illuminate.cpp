@@ -106,6 +106,20 @@ class SensorWork {
   double known_direct_ = -1.0;  ///< below zero: not known
 };
 
+/// Sensors that nothing reaches although there is light outside.
+void find_dark_sensors(const SensorIlluminance& values, std::vector<Finding>& findings) {
+  Finding dark;
+  dark.code = "no_light";
+  dark.what = "sensors see no sky and receive no light: inside a wall or a closed room?";
+  dark.repair = "move them into the open, or check which way their normals point";
+  dark.count = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values.sky_view[i] > 0.0 || values.total_lux(i) > 0.0) continue;
+    if (dark.count++ == 0) dark.where = "sensor " + std::to_string(i + 1);
+  }
+  if (dark.count > 0) findings.push_back(std::move(dark));
+}
+
 }  // namespace
 
 IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
@@ -120,8 +134,8 @@ IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
   SkyCache cache(rays, source, options.seed);
   progress.begin(options.known_direct_lux ? "reflected light" : "illuminance", sensors.size());
   parallel_for(sensors.size(), kGrain, [&](IndexRange range) {
-    progress.stop_if_cancelled();
     for (std::size_t i = range.begin; i < range.end; ++i) {
+      progress.stop_if_cancelled();
       SensorWork work(sensors, i, rays, source, cache, options);
       if (!work.finish(budget)) ++missed;
       work.store(result.values, i);
@@ -131,6 +145,9 @@ IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
   });
   result.rays = rays_sent + cache.rays_sent();
   result.out_of_tolerance = missed;
+  if (options.known_direct_lux == nullptr && source.unobstructed_lux() > 0.0) {
+    find_dark_sensors(result.values, result.findings);
+  }
   progress.end(std::to_string(sensors.size()) + " sensors, " + std::to_string(result.rays) +
                " rays");
   return result;
