@@ -5,6 +5,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <vector>
 
 #include "cli/lit_scene_files.h"
 #include "support/reference_table.h"
@@ -161,10 +162,10 @@ TEST(Contract, CtrlCStopsAtOnceAndLeavesNothing) {
   write_text(folder / "s.toml",
              "[scene]\nfile = \"box.obj\"\n[sky]\nmodel = \"cie:12\"\n"
              "[sun]\naltitude_deg = 40\nazimuth_deg = 180\n[calculation]\ntolerance_percent = 0.01\n[[illuminance]]\nspacing_m = 0.05\n");
-  for (const std::string arguments :
+  for (const std::string& arguments : std::vector<std::string>
        {"illuminance box.obj --grid ground,walls --spacing 0.05 --tolerance 0.01 --out o.csv" + kSky,
         "render box.obj --size 2000x2000 --tolerance 0.01 --out o.png" + kSky,
-        std::string("run s.toml --out results")}) {
+        "run s.toml --out results"}) {
     const Interrupted stopped = interrupt(arguments, 0.7, folder);
     EXPECT_EQ(stopped.exit_code, 1) << arguments << stopped.err;
     EXPECT_NE(stopped.err.find("stopped by the user"), std::string::npos) << stopped.err;

@@ -11,12 +11,12 @@ inline void write_text(const std::filesystem::path& path, const std::string& tex
   std::ofstream(path, std::ios::binary) << text;
 }
 
-/// A closed box of 2 m, centred on the origin, on a floor of 40 m at z = -1.
+/// A closed box of 2 m, centred on the origin, on a floor of 40 m at z = -2.
 inline const char* const kBoxScene =
     "o box\n"
     "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
     "f 5 6 7 8\nf 4 3 2 1\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"
-    "o floor\nv -20 -20 -1\nv 20 -20 -1\nv 20 20 -1\nv -20 20 -1\nf 9 10 11 12\n";
+    "o floor\nv -20 -20 -2\nv 20 -20 -2\nv 20 20 -2\nv -20 20 -2\nf 9 10 11 12\n";
 
 /// `box.obj`, `open.pts` (a sensor in the open), a sky of 10,000 lx.
 inline void write_box_scene(const std::filesystem::path& folder) {
