@@ -120,6 +120,15 @@ void find_dark_sensors(const SensorIlluminance& values, std::vector<Finding>& fi
   if (dark.count > 0) findings.push_back(std::move(dark));
 }
 
+Finding tolerance_not_reached(std::size_t sensors) {
+  Finding finding;
+  finding.code = "tolerance_not_reached";
+  finding.what = "sensors met the limit of effort before the tolerance; error_lux tells how near";
+  finding.repair = "a higher tolerance, or take them as they are";
+  finding.count = sensors;
+  return finding;
+}
+
 }  // namespace
 
 IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
@@ -145,6 +154,7 @@ IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
   });
   result.rays = rays_sent + cache.rays_sent();
   result.out_of_tolerance = missed;
+  if (missed > 0) result.findings.push_back(tolerance_not_reached(missed));
   if (options.known_direct_lux == nullptr && source.unobstructed_lux() > 0.0) {
     find_dark_sensors(result.values, result.findings);
   }

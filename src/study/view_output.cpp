@@ -13,7 +13,7 @@
 namespace tenku {
 namespace {
 
-constexpr int kLegendHeight = 84, kMargin = 18;
+constexpr int kLegendHeight = 84, kMargin = 34;
 
 /// What the false colours and the files of a kind hold, and in what unit.
 struct Shown {

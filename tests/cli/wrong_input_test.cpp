@@ -243,6 +243,22 @@ TEST(WrongInput, ViewsThatCannotBeAreRefused) {
   expect_only(folder, 2);
 }
 
+// Before the views, which take long.
+TEST(WrongInput, StudiesAreRefusedBeforeTheWork) {
+  const fs::path folder = test_folder();
+  write_box_scene(folder);
+  const std::string begin = "[scene]\nfile = \"box.obj\"\n" + kSun + "size = [9000, 9000]\n";
+  write_text(folder / "maps.toml", begin + "[calculation]\nengine = \"shadow-maps\"\n");
+  write_text(folder / "points.toml", begin + "[[sensors]]\nfile = \"no.pts\"\n");
+  write_text(folder / "key.toml", begin + "[calculation]\nbounce = 1\n");
+  write_text(folder / "cut.toml", "[scene\n");
+  expect_refused({{"run maps.toml --out results", "shadow-map"},
+                  {"run points.toml --out results", "no.pts"},
+                  {"run key.toml --out results", "bounces"},
+                  {"run cut.toml --out results", "cut.toml"}},
+                 folder);
+}
+
 // The scene does not exist either: the output is looked at first, before any long work.
 TEST(WrongInput, OutputsThatCannotBeWrittenAreFoundBeforeTheSceneIsRead) {
   const fs::path folder = test_folder();
