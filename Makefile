@@ -13,7 +13,7 @@ endif
 .PHONY: demo test install build check clean
 
 demo: build
-	build/release/cli/tenku run $(if $(CITY),scenes/examples/any_city.toml --scene "$(CITY)",scenes/examples/demo.toml) $(if $(TIME),--time "$(TIME)") --out out/demo
+	build/release/cli/tenku run $(if $(CITY),scenes/examples/any_city.toml --scene "$(CITY)",scenes/examples/demo.toml) $(if $(TIME),--time "$(TIME)") --out out/demo || [ $$? -eq 3 ]  # 3: written, some points less exact than asked
 
 test: build
 	cmake --preset sanitize

@@ -7,6 +7,7 @@
 
 #include "cli/command.h"
 #include "cli/lit_scene_options.h"
+#include "core/atomic_file.h"
 #include "core/error.h"
 #include "illuminance/illuminate.h"
 #include "output/field_writer.h"
@@ -46,6 +47,7 @@ void check_request(const IlluminanceCommandOptions& options) {
   if (!table && !ends_with(options.lit.out, ".vtp")) {
     throw InputError("cannot write '" + options.lit.out + "': the ending must be .csv or .vtp");
   }
+  check_can_write(options.lit.out);
 }
 
 /// Sensors as the file gives them and in the local frame; a grid has a mesh too.

@@ -6,6 +6,7 @@
 
 #include "cli/command.h"
 #include "cli/lit_scene_options.h"
+#include "core/atomic_file.h"
 #include "core/error.h"
 #include "study/view_output.h"
 #include "view/view_render.h"
@@ -29,20 +30,37 @@ Vec3 point_of(const std::string& text, const char* option) {
 }
 
 std::pair<int, int> size_of(const std::string& text) {
+  constexpr int kLargestSide = 16384;
   int width = 0, height = 0;
   char rest = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2) {
+  if (text.size() > 16 || std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2) {
     throw InputError(fmt::format("--size {}: WIDTHxHEIGHT in pixels is needed", text));
   }
+  if (std::min(width, height) < 1 || std::max(width, height) > kLargestSide) {
+    throw InputError(fmt::format("--size {}: a side is not in 1..{} pixels", text, kLargestSide));
+  }
   return {width, height};
+}
+
+/// Finds before the scene is read what is wrong with the view.
+void check_view(const RenderOptions& options) {
+  if (options.eye.empty() != options.target.empty()) {
+    throw InputError("give both --eye and --target, or neither for an overview");
+  }
+  if (!(options.fov_deg > 0.0 && options.fov_deg < 180.0)) {
+    throw InputError(fmt::format("--fov {}: not between 0 and 180 degrees", options.fov_deg));
+  }
+  if (options.eye.empty()) return;
+  if (point_of(options.eye, "--eye") == point_of(options.target, "--target")) {
+    throw InputError(fmt::format("--eye and --target are the same point, {}", options.eye));
+  }
 }
 
 int render(const RenderOptions& options, const CommandContext& context) {
   const ViewKind kind = view_kind_named(options.show);
   check_picture_ending(options.lit.out);
-  if (options.eye.empty() != options.target.empty()) {
-    throw InputError("give both --eye and --target, or neither for an overview");
-  }
+  check_can_write(options.lit.out);
+  check_view(options);
   const auto [width, height] = size_of(options.size);
   const auto start = std::chrono::steady_clock::now();
   const LitScene lit = load_lit_scene(options.lit, context.progress);

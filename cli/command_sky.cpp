@@ -10,6 +10,7 @@
 #include "core/atomic_file.h"
 #include "core/csv.h"
 #include "core/error.h"
+#include "study/sky_output.h"
 
 namespace tenku {
 namespace {
@@ -101,22 +102,27 @@ std::string json_of(const Sky& sky, const SkyPartition& partition) {
       json_text(sky.description));
 }
 
+bool is_table(const std::filesystem::path& out) { return out == "-" || out.extension() == ".csv"; }
+
 void write_output(const SkyCommandOptions& o, const Sky& sky, const SkyPartition& partition) {
   if (!o.directions.empty()) {
     return write_whole_file(o.out, luminance_csv(sky, read_directions(o.directions)));
   }
-  const std::string extension = std::filesystem::path(o.out).extension().string();
-  if (o.out == "-" || extension == ".csv") {
-    return write_whole_file(o.out, element_csv(partition));
-  }
-  throw InputError(fmt::format("--out '{}': the ending is not .csv", o.out));
+  if (is_table(o.out)) return write_whole_file(o.out, element_csv(partition));
+  write_sky(o.out, sky, partition);
 }
 
 void check_output(const SkyCommandOptions& o, const CommonOptions& options) {
   if (o.out.empty() && !options.json) {
-    throw InputError("nothing to do: give --out OUT.csv, or --json");
+    throw InputError("nothing to do: give --out OUT, or --json");
   }
   if (o.out.empty() && !o.directions.empty()) throw InputError("--directions needs --out OUT.csv");
+  if (o.out.empty()) return;
+  if (!is_table(o.out) && (!o.directions.empty() || !is_sky_output(o.out))) {
+    throw InputError(fmt::format("--out '{}': the ending is not {}", o.out,
+                                 o.directions.empty() ? ".csv, .vtp, .hdr, .exr or .png" : ".csv"));
+  }
+  check_can_write(o.out);
 }
 
 int run_sky(const SkyCommandOptions& o, const CommandContext& context) {
@@ -145,8 +151,8 @@ CommandBody make_sky_command(CLI::App& app) {
   app.add_option("--directions", options->directions,
                  "CSV table of azimuth_deg,altitude_deg to give the luminance of");
   app.add_option("--out", options->out,
-                 "CSV of luminances, or without --directions of the sky's elements; - for "
-                 "standard output");
+                 "CSV of luminances; without --directions the sky's elements (.csv, .vtp), a panorama "
+                 "(.hdr, .exr) or a plan of the dome (.png); - for CSV on standard output");
   return [options](const CommandContext& context) { return run_sky(*options, context); };
 }
 

@@ -140,6 +140,7 @@ CommandBody make_sun_command(CLI::App& app) {
   app.add_option("--delta-t", options->delta_t_s, "TT - UT1, seconds (default: built in)");
   app.add_option("--dut1", options->dut1_s, "UT1 - UTC, seconds (default: built in)");
   return [options](const CommandContext& context) {
+    if (!options->out.empty()) check_can_write(options->out);
     return options->times.empty() ? run_single(*options, context) : run_table(*options, context);
   };
 }

@@ -51,9 +51,9 @@ void say_findings(const CommonOptions& options, const std::vector<Finding>& find
   }
   for (const auto& [code, kind] : kinds) {
     const auto& [first, count] = kind;
+    const std::string& place = first->object.empty() ? first->where : first->object;
     say(options, fmt::format("{}: {} x {}: {}{}{}", name_of(first->severity), count, code,
-                             first->what, first->object.empty() ? "" : ", first at ",
-                             first->object));
+                             first->what, place.empty() ? "" : ", first at ", place));
   }
 }
 

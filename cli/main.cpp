@@ -1,12 +1,15 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <map>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "cli/command.h"
 #include "cli/terminal_progress.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/suggest.h"
 #include "core/version.h"
 
 namespace tenku {
@@ -50,11 +53,26 @@ int run_command(const CommandBody& body, const CommonOptions& options) {
   }
 }
 
+/// The first word, if it is meant as a command and is none.
+std::optional<std::string> unknown_command(int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return std::nullopt;
+  std::vector<std::string_view> names;
+  for (const CommandEntry& entry : commands()) {
+    if (argv[1] == std::string_view(entry.name)) return std::nullopt;
+    names.emplace_back(entry.name);
+  }
+  return "there is no command '" + std::string(argv[1]) + "'" + suggestion(argv[1], names);
+}
+
 int main_with(int argc, char** argv) {
   CLI::App app{"Daylight and townscape analysis: sun, sky, illuminance, views."};
   app.name("tenku");
   app.set_version_flag("--version", std::string(software_name()));
   app.require_subcommand(1);
+  if (const auto refusal = unknown_command(argc, argv)) {
+    std::fprintf(stderr, "tenku: %s; tenku --help lists them\n", refusal->c_str());
+    return kInputWrong;
+  }
   CommonOptions options;
   std::map<const CLI::App*, CommandBody> bodies;
   for (const CommandEntry& entry : commands()) {

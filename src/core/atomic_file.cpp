@@ -14,17 +14,29 @@
 namespace tenku {
 namespace fs = std::filesystem;
 
-AtomicFile::AtomicFile(fs::path final_path) : final_(std::move(final_path)) {
-  const fs::path folder = final_.has_parent_path() ? final_.parent_path() : fs::path(".");
+namespace {
+
+fs::path folder_of(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+void check_place(const fs::path& path) {
   std::error_code ignored;
-  if (!fs::is_directory(folder, ignored)) {
-    throw InputError("cannot write " + final_.string() + ": there is no folder " +
-                     folder.string());
+  if (!fs::is_directory(folder_of(path), ignored)) {
+    throw InputError("cannot write " + path.string() + ": there is no folder " +
+                     folder_of(path).string());
   }
-  if (fs::is_directory(final_, ignored)) {
-    throw InputError("cannot write " + final_.string() + ": it is a folder");
+  if (fs::is_directory(path, ignored)) {
+    throw InputError("cannot write " + path.string() + ": it is a folder");
   }
-  temporary_ = folder / (".partial-" + std::to_string(getpid()) + "-" + final_.filename().string());
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(fs::path final_path) : final_(std::move(final_path)) {
+  check_place(final_);
+  temporary_ = folder_of(final_) /
+               (".partial-" + std::to_string(getpid()) + "-" + final_.filename().string());
 }
 
 AtomicFile::~AtomicFile() {
@@ -56,6 +68,14 @@ void write_all(std::FILE* file, std::string_view bytes, const std::string& name)
 }
 
 }  // namespace
+
+void check_can_write(const fs::path& path) {
+  if (path == "-") return;
+  check_place(path);
+  if (::access(folder_of(path).c_str(), W_OK) != 0) {
+    throw InputError("cannot write " + path.string() + ": " + std::strerror(errno));
+  }
+}
 
 void write_whole_file(const fs::path& path, std::string_view bytes) {
   if (path == "-") return write_all(stdout, bytes, "standard output");

@@ -28,6 +28,10 @@ class AtomicFile {
   bool committed_ = false;
 };
 
+/// Tells before a long calculation whether its result could be written to `path`; `-` always can.
+/// @throws InputError if the folder does not exist or refuses files, or `path` is a folder
+void check_can_write(const std::filesystem::path& path);
+
 /// Writes `bytes` to `path`, or to standard output if `path` is `-`.
 /// @throws InputError, ResourceError as AtomicFile does
 void write_whole_file(const std::filesystem::path& path, std::string_view bytes);

@@ -141,6 +141,29 @@ IlluminanceResult illuminate_sharing(const Sensors& sensors, const RayVisibility
   return result;
 }
 
+/// Sensors that nothing reaches although there is light outside.
+void find_dark_sensors(const SensorIlluminance& values, std::vector<Finding>& findings) {
+  Finding dark;
+  dark.code = "no_light";
+  dark.what = "sensors see no sky and receive no light: inside a wall or a closed room?";
+  dark.repair = "move them into the open, or check which way their normals point";
+  dark.count = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values.sky_view[i] > 0.0 || values.total_lux(i) > 0.0) continue;
+    if (dark.count++ == 0) dark.where = "sensor " + std::to_string(i + 1);
+  }
+  if (dark.count > 0) findings.push_back(std::move(dark));
+}
+
+Finding tolerance_not_reached(std::size_t sensors) {
+  Finding finding;
+  finding.code = "tolerance_not_reached";
+  finding.what = "sensors met the limit of effort before the tolerance; error_lux tells how near";
+  finding.repair = "a higher tolerance, or take them as they are";
+  finding.count = sensors;
+  return finding;
+}
+
 }  // namespace
 
 IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
@@ -159,8 +182,8 @@ IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
   SkyCache cache(rays, source, options.seed);
   progress.begin(options.known_direct ? "reflected light" : "illuminance", sensors.size());
   parallel_for(sensors.size(), kGrain, [&](IndexRange range) {
-    progress.stop_if_cancelled();
     for (std::size_t i = range.begin; i < range.end; ++i) {
+      progress.stop_if_cancelled();
       SensorWork work(sensors, i, rays, source, cache, options);
       if (!work.finish(budget)) ++missed;
       work.store(result.values, i);
@@ -170,6 +193,10 @@ IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
   });
   result.rays = rays_sent + cache.rays_sent();
   result.out_of_tolerance = missed;
+  if (missed > 0) result.findings.push_back(tolerance_not_reached(missed));
+  if (options.known_direct == nullptr && source.unobstructed_lux() > 0.0) {
+    find_dark_sensors(result.values, result.findings);
+  }
   progress.end(std::to_string(sensors.size()) + " sensors, " + std::to_string(result.rays) +
                " rays");
   return result;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/random.h"
 
 namespace tenku {
 namespace {
@@ -62,7 +63,20 @@ class GridBuilder {
   }
 
   void add_single(const Corners& corners, double area) {
-    const std::uint32_t sensor = add_sensor(corners.middle(), area);
+    const Vec3 m = corners.middle();
+    std::uint64_t key = static_cast<std::uint64_t>(type_);
+    for (const double part : {m.x / spacing_, m.y / spacing_, m.z / spacing_, 8.0 * normal_.x,
+                              8.0 * normal_.y, 8.0 * normal_.z}) {
+      key = mix_bits(key + static_cast<std::uint64_t>(std::llround(part)));
+    }
+    const auto [found, is_new] =
+        grid_.shared.emplace(key, static_cast<std::uint32_t>(grid_.sensors.size()));
+    const std::uint32_t sensor = found->second;
+    if (is_new) {
+      add_sensor(m, area);
+    } else {
+      grid_.area_m2[sensor] += area;
+    }
     add_part({sensor, sensor, sensor}, {corners.a, corners.b, corners.c});
   }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "illuminance/sensor.h"
@@ -14,8 +15,9 @@ namespace tenku {
 /// Sensors on triangles, with the finer triangles between them.
 ///
 /// A triangle larger than the spacing is divided evenly, with a sensor at every corner of the
-/// parts; a smaller one has one sensor, in its middle. Sensors at corners are drawn in a little,
-/// off the walls that may stand there.
+/// parts; smaller ones have one sensor, in the middle of the first of those that face the same way
+/// in the same cube of that size. Sensors at corners are drawn in a little, off the walls that may
+/// stand there.
 /// Shape    `corner_sensor` and `corner_point` are [part][3]; `triangle` is [part], into the soup.
 struct SensorGrid {
   Sensors sensors;
@@ -24,6 +26,7 @@ struct SensorGrid {
   std::vector<std::array<std::uint32_t, 3>> corner_sensor;
   std::vector<std::array<Vec3, 3>> corner_point;
   std::vector<std::uint32_t> triangle;
+  std::unordered_map<std::uint64_t, std::uint32_t> shared;  ///< cube and direction -> sensor
 };
 
 /// Adds sensors on the front sides of the chosen triangles.

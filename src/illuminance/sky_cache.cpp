@@ -45,6 +45,7 @@ Vec3 closest_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
 struct Cell {
   std::uint64_t key;
   Vec3 centre;
+  double pitch;
 };
 
 Cell cell_of(std::uint32_t triangle, bool front, Vec3 point, double distance_m) {
@@ -59,7 +60,7 @@ Cell cell_of(std::uint32_t triangle, bool front, Vec3 point, double distance_m) 
   for (const double index : {i, j, k}) {
     key = mix_bits(key + static_cast<std::uint64_t>(static_cast<std::int64_t>(index)));
   }
-  return {key, {(i + 0.5) * pitch, (j + 0.5) * pitch, (k + 0.5) * pitch}};
+  return {key, {(i + 0.5) * pitch, (j + 0.5) * pitch, (k + 0.5) * pitch}, pitch};
 }
 
 }  // namespace
@@ -91,7 +92,9 @@ double SkyCache::lux(std::uint32_t triangle, Vec3 point, Vec3 normal, double dis
   const Vec3 va = soup.vertices[a], vb = soup.vertices[b], vc = soup.vertices[c];
   // A little toward the middle, off the edges, where neighbours would hide half of the sky.
   const Vec3 edge_point = closest_on_triangle(cell.centre, va, vb, vc);
-  const Vec3 place = 0.98 * edge_point + 0.02 * (1.0 / 3.0 * (va + vb + vc));
+  const Vec3 inward = (1.0 / 3.0) * (va + vb + vc) - edge_point;
+  const double shift = std::min(0.02, 0.02 * cell.pitch / std::max(length(inward), 1e-9));
+  const Vec3 place = edge_point + shift * inward;
   const auto value = static_cast<float>(measure(place, normal, cell.key));
   const std::lock_guard lock(shard.mutex);
   shard.value.emplace(cell.key, value);

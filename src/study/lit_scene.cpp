@@ -25,6 +25,7 @@ const std::vector<SurfaceGroup>& surface_groups() {
       {"ground", {SurfaceType::Ground, SurfaceType::Road, SurfaceType::Floor, SurfaceType::Water}},
       {"roofs", {SurfaceType::Roof}},
       {"walls", {SurfaceType::Wall, SurfaceType::Window, SurfaceType::Door}},
+      {"windows", {SurfaceType::Window}},
   };
   return groups;
 }

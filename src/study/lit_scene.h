@@ -42,7 +42,8 @@ class LitScene {
   /// Sensors given in the coordinates of the scene file, in the local frame.
   Sensors to_local(const Sensors& in_file) const;
 
-  /// Sensors on surfaces by the names of `--grid`: `ground`, `roofs`, `walls`, or a surface type.
+  /// Sensors on surfaces by the names of `--grid`: `ground`, `roofs`, `walls`, `windows`, or a
+  /// surface type.
   /// The ground that tenku gave gets a wider spacing of its own.
   /// @throws InputError if a name is not known or nothing bears it
   SensorGrid grid(std::span<const std::string> surfaces, double spacing_m) const;

@@ -145,9 +145,19 @@ class StudyRun {
   StudyOutcome outcome_;
 };
 
+/// Refuses before the long work what would stop it later.
+void check_study(const Study& study) {
+  if (study.calculation.engine == "shadow-maps") {
+    throw InputError("engine in [calculation] is 'shadow-maps': this version has no shadow-map "
+                     "engine; use 'rays'");
+  }
+  for (const StudySensors& sensors : study.sensors) read_sensor_file(sensors.file);
+}
+
 }  // namespace
 
 StudyOutcome run_study(const Study& study, const fs::path& folder, Progress& progress) {
+  check_study(study);
   std::error_code error;
   fs::create_directories(folder, error);
   if (!fs::is_directory(folder)) {

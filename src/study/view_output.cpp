@@ -13,7 +13,7 @@
 namespace tenku {
 namespace {
 
-constexpr int kLegendWidth = 150;
+constexpr int kLegendHeight = 84, kMargin = 34;
 
 /// What the false colours and the files of a kind hold, and in what unit.
 struct Shown {
@@ -37,11 +37,11 @@ Image8 with_legend(const RenderedView& view, ViewKind kind) {
   }
   if (finite.empty()) finite = {0.0, 1.0};
   const ValueScale scale = round_scale(finite, false, 0.01);
-  Canvas canvas(width + kLegendWidth, height);
+  Canvas canvas(width, height + kLegendHeight);
   canvas.paste(false_colour(what.values, width, scale), 0, 0);
-  const double length = std::min(0.7 * height, 360.0);
-  ColourBar bar{.scale = scale, .quantity = what.quantity, .unit = what.unit};
-  draw_colour_bar(canvas, {width + 18.0, 0.5 * (height - length)}, length, bar, 13.0);
+  const double length = std::clamp(width - 2.0 * kMargin, 1.0, 560.0);
+  const ColourBar bar{.scale = scale, .quantity = what.quantity, .unit = what.unit};
+  draw_colour_bar(canvas, {0.5 * (width - length), height + 8.0}, length, bar, 13.0);
   return canvas.image();
 }
 

@@ -1,0 +1,247 @@
+// The contract of the command line: what is printed where, and what happens when the world fails.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <vector>
+
+#include "cli/lit_scene_files.h"
+#include "support/reference_table.h"
+#include "support/run_program.h"
+
+namespace tenku {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace testing_support;
+using nlohmann::json;
+
+const std::string kColumns =
+    "x,y,z,nx,ny,nz,sun_lux,sky_lux,reflected_lux,total_lux,error_lux,sky_view";
+
+
+void expect_keys(const std::string& text, const std::vector<std::string>& keys) {
+  const json summary = json::parse(text);
+  for (const std::string& key : keys) EXPECT_TRUE(summary.contains(key)) << key << "\n" << text;
+}
+
+bool has_partial_file(const fs::path& folder) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.path().filename().string().find(".partial") != std::string::npos) return true;
+  }
+  return false;
+}
+
+TEST(Contract, StandardOutputHoldsTheTableAndNothingElse) {
+  const fs::path folder = test_folder();
+  write_box_scene(folder);
+  const auto run = run_tenku("illuminance box.obj --sensors open.pts --out -" + kSky, folder);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::istringstream lines(run.out);
+  std::string header, row, rest;
+  std::getline(lines, header);
+  std::getline(lines, row);
+  EXPECT_EQ(header, kColumns);
+  EXPECT_EQ(row.substr(0, 12), "10,10,0,0,0,") << row;
+  EXPECT_FALSE(std::getline(lines, rest)) << rest;
+}
+
+TEST(Contract, SummariesHaveTheirKeys) {
+  const fs::path folder = test_folder();
+  write_box_scene(folder);
+  const auto lux = run_tenku(
+      "illuminance box.obj --sensors open.pts --out o.csv --json --quiet" + kSky, folder);
+  ASSERT_EQ(lux.exit_code, 0) << lux.err;
+  EXPECT_EQ(lux.err, "");
+  expect_keys(lux.out, {"seconds", "rays", "depth_maps", "elements", "sensors", "error_mean"});
+  const auto view = run_tenku(
+      "render box.obj --size 16x16 --tolerance 20 --out o.png --json --quiet" + kSky, folder);
+  ASSERT_EQ(view.exit_code, 0) << view.err;
+  EXPECT_EQ(view.err, "");
+  expect_keys(view.out, {"seconds", "rays", "depth_maps", "elements", "pixels", "error_mean"});
+  const auto scene = run_tenku("inspect box.obj --json --quiet", folder);
+  ASSERT_EQ(scene.exit_code, 0) << scene.err;
+  expect_keys(scene.out, {"format", "crs", "objects", "triangles", "lods", "extent",
+                          "surface_types", "findings"});
+  EXPECT_EQ(json::parse(scene.out)["triangles"], 14);
+}
+
+TEST(Contract, EveryCommandHasHelpWithAnExample) {
+  const fs::path folder = test_folder();
+  const auto all = run_tenku("--help", folder);
+  EXPECT_EQ(all.exit_code, 0);
+  for (const std::string name : {"inspect", "sun", "sky", "illuminance", "render", "run"}) {
+    EXPECT_NE(all.out.find(name), std::string::npos) << name;
+    const auto help = run_tenku(name + " --help", folder);
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_NE(help.out.find("Example:\n  tenku " + name), std::string::npos) << help.out;
+    for (const std::string option : {"--threads", "--seed", "--quiet", "--verbose", "--json"}) {
+      EXPECT_NE(help.out.find(option), std::string::npos) << name << " " << option;
+    }
+  }
+  EXPECT_EQ(run_tenku("--version", folder).out.substr(0, 5), "tenku");
+}
+
+TEST(Contract, AFullDeviceIsExitOne) {
+  const fs::path folder = test_folder();
+  write_box_scene(folder);
+  const std::string command = "cd '" + folder.string() + "' && '" TENKU_PROGRAM
+                              "' illuminance box.obj --sensors open.pts --quiet --out -" + kSky +
+                              " > /dev/full 2> said.err";
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  EXPECT_NE(contents_of(folder / "said.err").find("standard output"), std::string::npos);
+}
+
+// A limit on the size of files stands for a full disk.
+TEST(Contract, AFileThatDoesNotFitLeavesNothing) {
+  const fs::path folder = test_folder();
+  write_box_scene(folder);
+  write_text(folder / "try.sh",
+             "trap '' XFSZ\nulimit -f 2\n\"$1\" sky --sky uniform --sky-illuminance 1 --quiet "
+             "--elements 20000 --out \"$2\"\n");
+  for (const std::string out : {"big.csv", "big.vtp", "big.exr", "big.hdr", "big.png"}) {
+    const std::string command = "cd '" + folder.string() + "' && sh try.sh '" TENKU_PROGRAM "' " +
+                                out + " > said.out 2> said.err";
+    const int status = std::system(command.c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 1) << out << ": " << contents_of(folder / "said.err");
+    EXPECT_NE(contents_of(folder / "said.err").find("cannot write"), std::string::npos)
+        << out << ": " << contents_of(folder / "said.err");
+    EXPECT_FALSE(fs::exists(folder / out));
+    EXPECT_FALSE(has_partial_file(folder)) << out;
+  }
+}
+
+// A sensor in the box and one in the open: the first is dark, and the program says so.
+TEST(Contract, ASensorInAWallIsDarkAndSaysSo) {
+  const fs::path folder = test_folder();
+  write_box_scene(folder);
+  write_text(folder / "two.pts", "10 10 0 0 0 1\n0 0 0 0 0 1\n0.1 0 0 1 0 0\n");
+  const auto run = run_tenku("illuminance box.obj --sensors two.pts --out o.csv" + kSky, folder);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const ReferenceTable table((folder / "o.csv").string());
+  EXPECT_GT(table.number(0, "total_lux"), 5000.0);
+  EXPECT_EQ(table.number(1, "total_lux"), 0.0);
+  EXPECT_EQ(table.number(1, "sky_view"), 0.0);
+  EXPECT_NE(run.err.find("2 x no_light"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("sensor 2"), std::string::npos) << run.err;
+}
+
+TEST(Contract, LightedSensorsGiveNoSuchFinding) {
+  const fs::path folder = test_folder();
+  write_box_scene(folder);
+  const auto run = run_tenku("illuminance box.obj --sensors open.pts --out o.csv" + kSky, folder);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.err.find("no_light"), std::string::npos) << run.err;
+}
+
+// docs/study.md, each table once.
+const char* const kEveryTable = R"([scene]
+file = "box.obj"
+crs = "EPSG:6680"
+ground = "none"
+up = "z"
+rotate_deg = 10.0
+[site]
+latitude_deg = 43.06
+longitude_deg = 141.35
+[time]
+at = "2026-06-21T10:00"
+zone = "Asia/Tokyo"
+[sky]
+model = "cie:12"
+illuminance_lx = 15000
+[calculation]
+tolerance_percent = 20
+bounces = 1
+[[view]]
+name = "view"
+size = [32, 24]
+show = "falsecolor"
+files = ["png", "exr", "hdr"]
+[[illuminance]]
+name = "field"
+surfaces = ["roofs"]
+[[sensors]]
+name = "points"
+file = "open.pts"
+[plan]
+spacing_m = 4
+lowest_lx = 0
+highest_lx = 90000
+[report]
+title = "Every table"
+)";
+
+TEST(Contract, AStudyWithEveryTableWritesEveryOutput) {
+  const fs::path folder = test_folder();
+  write_box_scene(folder);
+  write_text(folder / "s.toml", kEveryTable);
+  const auto run = run_tenku("run s.toml --out results --json --quiet", folder);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const std::string name :
+       {"view.png", "view.exr", "view.hdr", "field.vtp", "points.csv", "plan.png", "sun_path.svg",
+        "report.html", "manifest.json"}) {
+    EXPECT_TRUE(fs::exists(folder / "results" / name)) << name;
+  }
+  EXPECT_EQ(contents_of(folder / "results/points.csv").substr(0, kColumns.size()), kColumns);
+  EXPECT_EQ(json::parse(run.out)["files"].size(), 9u);
+}
+
+struct Interrupted {
+  int exit_code;
+  double seconds_after;  ///< from the signal to the end
+  std::string err;
+};
+
+/// Ctrl-C a moment after the scene has been read, when the long work is under way.
+Interrupted interrupt(const std::string& arguments, const fs::path& folder) {
+  write_text(folder / "stop.sh",
+             ": > said.err\n\"$@\" > said.out 2> said.err < /dev/null &\n"
+             "for i in $(seq 200); do grep -q boxes said.err && break; sleep 0.05; done\n"
+             "sleep 0.3\ndate +%s.%N > began\nkill -INT $!\nwait $!\ncode=$?\n"
+             "date +%s.%N > ended\nexit $code\n");
+  const std::string command =
+      "cd '" + folder.string() + "' && sh stop.sh '" TENKU_PROGRAM "' " + arguments;
+  const int status = std::system(command.c_str());
+  const auto seconds = [&](const char* file) { return std::stod(contents_of(folder / file)); };
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, seconds("ended") - seconds("began"),
+          contents_of(folder / "said.err")};
+}
+
+// "Stops within a second" is the contract; machines that run other tests meanwhile get three.
+TEST(Contract, CtrlCStopsAtOnceAndLeavesNothing) {
+  const fs::path folder = test_folder();
+  write_box_scene(folder);
+  write_text(folder / "s.toml",
+             "[scene]\nfile = \"box.obj\"\n[sky]\nmodel = \"cie:12\"\n"
+             "[sun]\naltitude_deg = 40\nazimuth_deg = 180\n"
+             "[calculation]\ntolerance_percent = 0.01\n[[illuminance]]\nspacing_m = 0.05\n");
+  for (const std::string& arguments : std::vector<std::string>{
+        "illuminance box.obj --grid ground,walls --spacing 0.05 --tolerance 0.01 --out o.csv" + kSky,
+        "render box.obj --size 2000x2000 --tolerance 0.01 --out o.png" + kSky,
+        "run s.toml --out results"}) {
+    const Interrupted stopped = interrupt(arguments, folder);
+    EXPECT_EQ(stopped.exit_code, 1) << arguments << stopped.err;
+    EXPECT_NE(stopped.err.find("stopped by the user"), std::string::npos) << stopped.err;
+    EXPECT_LT(stopped.seconds_after, 3.0) << arguments;
+    EXPECT_FALSE(fs::exists(folder / "o.csv") || fs::exists(folder / "o.png"));
+    EXPECT_FALSE(has_partial_file(folder)) << arguments;
+  }
+}
+
+TEST(Contract, AToleranceThatIsNotReachedIsExitThreeWithAResult) {
+  const fs::path folder = test_folder();
+  write_box_scene(folder);
+  write_text(folder / "near.pts", "1.2 0.1 0 1 0 1\n");
+  const auto run = run_tenku(
+      "illuminance box.obj --sensors near.pts --tolerance 1e-7 --out o.csv --json" + kSky, folder);
+  EXPECT_EQ(run.exit_code, 3) << run.err;
+  EXPECT_NE(run.err.find("tolerance_not_reached"), std::string::npos) << run.err;
+  EXPECT_TRUE(fs::exists(folder / "o.csv"));
+  EXPECT_GT(json::parse(run.out)["out_of_tolerance"].get<int>(), 0);
+}
+
+}  // namespace
+}  // namespace tenku
