@@ -25,6 +25,7 @@ def modules(root):
 
 def faults_of_file(path, root, own, order):
     name = path.relative_to(root).as_posix()
+    private = "Private to this module." in path.read_text(errors="replace")
     for number, line in enumerate(path.read_text(errors="replace").splitlines(), 1):
         match = INCLUDE.match(line)
         if not match:
@@ -35,7 +36,7 @@ def faults_of_file(path, root, own, order):
             yield f'{where}: "{target}" does not start at a module'
         elif kind == '"' and order[module] > order[own]:
             yield f'{where}: {own} may not use {module}, which stands below it'
-        elif kind == "<" and path.suffix == ".h" and re.search(r"[/.]", target):
+        elif kind == "<" and path.suffix == ".h" and re.search(r"[/.]", target) and not private:
             yield f"{where}: a header may include only the standard library and ours: <{target}>"
         for package, place in ONLY_IN.items():
             if kind == "<" and target.startswith(package) and name != place:

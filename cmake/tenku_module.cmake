@@ -10,7 +10,8 @@ if(TENKU_CCACHE)
 endif()
 
 add_library(tenku_options INTERFACE)
-target_compile_options(tenku_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -ffp-contract=off)
+target_compile_options(tenku_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -ffp-contract=off
+                       -fno-math-errno)
 target_include_directories(tenku_options INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
 if(TENKU_SANITIZE)
   target_compile_options(tenku_options INTERFACE -fsanitize=address,undefined

@@ -1,4 +1,4 @@
-/// Geometry objects of CityJSON: boundaries, semantics, templates.
+/// Geometry objects of CityJSON: boundaries, semantics, templates. Private to this module.
 #pragma once
 
 #include <simdjson.h>
