@@ -20,7 +20,7 @@ struct IlluminanceOptions {
   double floor_share = 0.001;  ///< of the unobstructed illuminance: lower values are held to it
   int first_slices = 16;    ///< of the sky, a sensor; a power of two
   int most_slices = 4096;   ///< of the sky, a sensor
-  int most_paths = 16384;   ///< of reflected light, a sensor
+  int most_paths = 65536;   ///< of reflected light, a sensor
   /// Sensors nearer to each other than this share reflected light (ReflectedSharing); 0: each has
   /// its own.
   double share_reflected_m = 0.0;
