@@ -63,7 +63,7 @@ void ReflectedLight::trace_path(PathStart start, int last_order, const AtVertex&
     weight = rays_.glass_transmission(origin, direction, hit->distance_m) * weight;
     const Vec3 face = rays_.normal(hit->triangle);
     normal = dot(face, direction) < 0.0 ? face : -face;
-    const Vec3 point = origin + hit->distance_m * direction;
+    const Vec3 point = rays_.on_plane(hit->triangle, origin + hit->distance_m * direction);
     origin = point + rays_.lift_m() * normal;
     const Material& material = rays_.materials()[rays_.soup().material[hit->triangle]];
     const double diffuse_part = std::max({material.reflectance.r, material.reflectance.g,

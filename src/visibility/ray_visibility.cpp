@@ -155,6 +155,12 @@ Vec3 RayVisibility::normal(std::uint32_t triangle) const {
                           soup_.vertices[c] - soup_.vertices[a]));
 }
 
+Vec3 RayVisibility::on_plane(std::uint32_t triangle, Vec3 point) const {
+  const Vec3 n = normal(triangle);
+  if (!is_finite(n)) return point;  // a sliver without a plane
+  return point - dot(point - soup_.vertices[soup_.triangles[triangle][0]], n) * n;
+}
+
 bool RayVisibility::is_occluded(Vec3 origin, Vec3 direction) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);

@@ -55,6 +55,9 @@ class RayVisibility : public Visibility {
   const std::vector<Material>& materials() const { return materials_; }
   const MeshAdjacency& adjacency() const { return adjacency_; }
   Vec3 normal(std::uint32_t triangle) const;
+  /// The point moved into the plane of the triangle: where a ray met it, without the rounding of
+  /// its distance.
+  Vec3 on_plane(std::uint32_t triangle, Vec3 point) const;
   /// Distance by which a point is lifted off a surface before rays leave it, in metres.
   double lift_m() const { return lift_m_; }
 
