@@ -77,6 +77,7 @@ void ReflectedLight::trace_path(PathStart start, int last_order, const AtVertex&
       ++mirrors;
       continue;
     }
+    if (!(to_mirror < 1.0)) return;  // a mirror alone, met too often in a row
     weight = (1.0 / (1.0 - to_mirror)) * weight;
     at_vertex(Vertex{order, weight, material, hit->triangle, point, normal, chance.uniform(),
                      chance.uniform(), hit->distance_m});
