@@ -20,7 +20,7 @@ enum ExitCode : int { kDone = 0, kOtherFailure = 1, kInputWrong = 2, kToleranceN
 
 /// Options that every subcommand has.
 struct CommonOptions {
-  unsigned threads = 0;     ///< 0: all
+  unsigned threads = 0;  ///< 0: all
   std::uint64_t seed = 1;
   bool quiet = false, verbose = false, json = false;
 };
@@ -31,8 +31,8 @@ struct CommandContext {
   Progress& progress;  ///< a bar on a terminal, one log line a stage otherwise; watches Ctrl-C
 };
 
-/// A subcommand registers its options on `app` (its own subcommand, already made) and returns what is
-/// called when it is chosen. The returned function gives the exit code; it may throw InputError
+/// A subcommand registers its options on `app` (its own subcommand, already made) and returns what
+/// is called when it is chosen. The returned function gives the exit code; it may throw InputError
 /// (exit 2), ResourceError or anything else (exit 1).
 using CommandBody = std::function<int(const CommandContext&)>;
 

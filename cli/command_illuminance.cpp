@@ -111,16 +111,15 @@ int illuminance(const IlluminanceCommandOptions& options, const CommandContext& 
   findings.insert(findings.end(), result.findings.begin(), result.findings.end());
   say_findings(context.options, findings);
   if (context.options.json) {
-    const nlohmann::ordered_json summary{
-        {"seconds", seconds},
-        {"rays", result.rays},
-        {"depth_maps", 0},
-        {"elements", 0},
-        {"sensors", placed.sensors.size()},
-        {"error_mean", mean_error(result.values)},
-        {"out_of_tolerance", result.out_of_tolerance},
-        {"sky", lit.sky().description},
-        {"horizontal_lux", lit.source().unobstructed_lux()}};
+    const nlohmann::ordered_json summary{{"seconds", seconds},
+                                         {"rays", result.rays},
+                                         {"depth_maps", 0},
+                                         {"elements", 0},
+                                         {"sensors", placed.sensors.size()},
+                                         {"error_mean", mean_error(result.values)},
+                                         {"out_of_tolerance", result.out_of_tolerance},
+                                         {"sky", lit.sky().description},
+                                         {"horizontal_lux", lit.source().unobstructed_lux()}};
     fmt::print("{}\n", summary.dump(2));
   }
   return result.out_of_tolerance > 0 ? kToleranceNotReached : kDone;
@@ -131,7 +130,8 @@ int illuminance(const IlluminanceCommandOptions& options, const CommandContext& 
 CommandBody make_illuminance_command(CLI::App& app) {
   const auto options = std::make_shared<IlluminanceCommandOptions>();  // outlives this call
   add_lit_scene_options(app, options->lit);
-  app.add_option("--sensors", options->sensors, "sensors: x y z nx ny nz a line; - for standard input");
+  app.add_option("--sensors", options->sensors,
+                 "sensors: x y z nx ny nz a line; - for standard input");
   app.add_option("--grid", options->grid, "surfaces to cover: ground,roofs,walls");
   app.add_option("--spacing", options->spacing_m, "of the grid, metres (default 1)");
   return [options](const CommandContext& context) { return illuminance(*options, context); };

@@ -79,16 +79,14 @@ int render(const RenderOptions& options, const CommandContext& context) {
   request.seed = context.options.seed;
   const RenderedView view =
       render_view(request, lit.rays(), lit.source(), lit.sky().model.get(), context.progress);
-  write_view(options.lit.out, view, kind, {.title = options.lit.scene.scene, .time = options.lit.site.time, .units = {}});
+  write_view(options.lit.out, view, kind,
+             {.title = options.lit.scene.scene, .time = options.lit.site.time, .units = {}});
   if (context.options.json) {
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const nlohmann::ordered_json summary{{"seconds", seconds},
-                                         {"rays", view.rays},
-                                         {"depth_maps", 0},
-                                         {"elements", 0},
-                                         {"pixels", width * height},
-                                         {"error_mean", view.error_mean}};
+    const nlohmann::ordered_json summary{
+        {"seconds", seconds}, {"rays", view.rays},        {"depth_maps", 0},
+        {"elements", 0},      {"pixels", width * height}, {"error_mean", view.error_mean}};
     fmt::print("{}\n", summary.dump(2));
   }
   return kDone;

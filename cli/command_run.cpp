@@ -25,10 +25,10 @@ bool has(const std::filesystem::path& path, const char* ending) {
 void say_where_to_look(const CommonOptions& options, const StudyOutcome& outcome) {
   std::string pictures, fields, report;
   for (const auto& file : outcome.files) {
-    std::string& list = file.filename() == "report.html" ? report
-                        : has(file, ".vtp") || has(file, ".csv")     ? fields
-                        : has(file, ".json")             ? report
-                                                         : pictures;
+    std::string& list = file.filename() == "report.html"         ? report
+                        : has(file, ".vtp") || has(file, ".csv") ? fields
+                        : has(file, ".json")                     ? report
+                                                                 : pictures;
     list += (list.empty() ? "" : ", ") + file.string();
   }
   if (!report.empty()) say(options, "report    " + report);

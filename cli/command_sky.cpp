@@ -150,9 +150,10 @@ CommandBody make_sky_command(CLI::App& app) {
   add_partition_options(app, options->partition);
   app.add_option("--directions", options->directions,
                  "CSV table of azimuth_deg,altitude_deg to give the luminance of");
-  app.add_option("--out", options->out,
-                 "CSV of luminances; without --directions the sky's elements (.csv, .vtp), a panorama "
-                 "(.hdr, .exr) or a plan of the dome (.png); - for CSV on standard output");
+  app.add_option(
+      "--out", options->out,
+      "CSV of luminances; without --directions the sky's elements (.csv, .vtp), a panorama "
+      "(.hdr, .exr) or a plan of the dome (.png); - for CSV on standard output");
   return [options](const CommandContext& context) { return run_sky(*options, context); };
 }
 

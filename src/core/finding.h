@@ -11,9 +11,12 @@ enum class Severity { Note, Warning, Error };
 
 constexpr std::string_view name_of(Severity severity) {
   switch (severity) {
-    case Severity::Note: return "note";
-    case Severity::Warning: return "warning";
-    case Severity::Error: return "error";
+    case Severity::Note:
+      return "note";
+    case Severity::Warning:
+      return "warning";
+    case Severity::Error:
+      return "error";
   }
   return "";
 }
@@ -21,12 +24,12 @@ constexpr std::string_view name_of(Severity severity) {
 /// One flaw, or `count` of the same kind at the same object. Reaches the log, `--json` and the
 /// report.
 struct Finding {
-  std::string code;                       ///< short and stable, such as `zero_area_face`
+  std::string code;  ///< short and stable, such as `zero_area_face`
   Severity severity = Severity::Warning;
-  std::string object;                     ///< object id, or empty
-  std::string where;                      ///< file and line, ring, coordinates
-  std::string what;                       ///< a sentence without a full stop
-  std::string repair;                     ///< what was done about it, or could be
+  std::string object;  ///< object id, or empty
+  std::string where;   ///< file and line, ring, coordinates
+  std::string what;    ///< a sentence without a full stop
+  std::string repair;  ///< what was done about it, or could be
   std::size_t count = 1;
 };
 

@@ -11,7 +11,10 @@ void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(IndexRange)>& body) {
   using Range = tbb::blocked_range<std::size_t>;
   tbb::parallel_for(
-      Range(0, count, grain), [&](const Range& r) { body({r.begin(), r.end()}); },
+      Range(0, count, grain),
+      [&](const Range& r) {
+        body({r.begin(), r.end()});
+      },
       tbb::simple_partitioner());
 }
 
@@ -20,7 +23,9 @@ double parallel_sum(std::size_t count, std::size_t grain,
   using Range = tbb::blocked_range<std::size_t>;
   return tbb::parallel_deterministic_reduce(
       Range(0, count, grain), 0.0,
-      [&](const Range& r, double sum) { return sum + body({r.begin(), r.end()}); },
+      [&](const Range& r, double sum) {
+        return sum + body({r.begin(), r.end()});
+      },
       [](double a, double b) { return a + b; }, tbb::simple_partitioner());
 }
 

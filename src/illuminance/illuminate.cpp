@@ -8,18 +8,19 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/random.h"
-#include "illuminance/sky_cache.h"
 #include "illuminance/reflected_light.h"
 #include "illuminance/reflected_sharing.h"
 #include "illuminance/sensor_sky.h"
 #include "illuminance/sensor_sun.h"
+#include "illuminance/sky_cache.h"
 
 namespace tenku {
 namespace {
 
-constexpr std::size_t kGrain = 16;  // sensors a task
+constexpr std::size_t kGrain = 16;     // sensors a task
 constexpr double kSureOfDark = 512.0;  // slices times tolerance after which no sky is believed
-constexpr double kBlended = 2.5;    // errors of about nine blended representatives in one of their mean
+constexpr double kBlended =
+    2.5;  // errors of about nine blended representatives in one of their mean
 
 void check_options(const IlluminanceOptions& options) {
   if (!(options.tolerance_pct > 0.0 && options.tolerance_pct <= 100.0)) {
@@ -73,7 +74,7 @@ class SensorWork {
     values.error_lux[index] = interval_lux(variance(), reflected_.left_out_lux());
   }
 
-  std::uint64_t rays_sent() const { 
+  std::uint64_t rays_sent() const {
     return sky_.rays_sent() + sun_.rays_sent() + reflected_.rays_sent();
   }
 
@@ -90,7 +91,8 @@ class SensorWork {
       return can ? variance / static_cast<double>(std::max<std::uint64_t>(rays, 1)) : 0.0;
     };
     const auto most_paths = static_cast<std::uint64_t>(options_.most_paths);
-    const double sky = gain(sky_.slices() < options_.most_slices, sky_.variance(), sky_.rays_sent());
+    const double sky =
+        gain(sky_.slices() < options_.most_slices, sky_.variance(), sky_.rays_sent());
     const double sun = gain(sun_.rays_sent() < most_paths, sun_.variance(), sun_.rays_sent());
     const double reflected = gain(reflected_.paths() < options_.most_paths, reflected_.variance(),
                                   reflected_.rays_sent());
@@ -173,8 +175,7 @@ IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
   if (options.share_reflected_m > 0.0 && options.bounces > 0 && !options.known_direct) {
     return illuminate_sharing(sensors, rays, source, options, progress);
   }
-  const ErrorBudget budget(options.tolerance_pct,
-                           options.floor_share * source.unobstructed_lux());
+  const ErrorBudget budget(options.tolerance_pct, options.floor_share * source.unobstructed_lux());
   IlluminanceResult result;
   result.values = SensorIlluminance(sensors.size());
   std::atomic<std::uint64_t> rays_sent{0};

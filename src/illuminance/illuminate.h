@@ -15,12 +15,12 @@ namespace tenku {
 
 struct IlluminanceOptions {
   double tolerance_pct = 2.0;
-  int bounces = 5;          ///< diffuse ones, of `reflected`; 0 for none
+  int bounces = 5;  ///< diffuse ones, of `reflected`; 0 for none
   std::uint64_t seed = 1;
   double floor_share = 0.001;  ///< of the unobstructed illuminance: lower values are held to it
-  int first_slices = 16;    ///< of the sky, a sensor; a power of two
-  int most_slices = 4096;   ///< of the sky, a sensor
-  int most_paths = 65536;   ///< of reflected light, a sensor
+  int first_slices = 16;       ///< of the sky, a sensor; a power of two
+  int most_slices = 4096;      ///< of the sky, a sensor
+  int most_paths = 65536;      ///< of reflected light, a sensor
   /// Sensors nearer to each other than this share reflected light (ReflectedSharing); 0: each has
   /// its own.
   double share_reflected_m = 0.0;

@@ -28,19 +28,24 @@ Vec3 cosine_direction(Vec3 normal, double u, double v) {
 
 /// A place where a path meets a diffuse surface.
 struct ReflectedLight::Vertex {
-  int order;              ///< 1 for the first
-  Rgb weight;             ///< what of its exitance reaches the sensor
+  int order;   ///< 1 for the first
+  Rgb weight;  ///< what of its exitance reaches the sensor
   const Material& material;
   std::uint32_t triangle;
-  Vec3 point, normal;     ///< the normal on the side of the path
-  double u, v;            ///< two more random numbers of the path, for the solar disc
+  Vec3 point, normal;  ///< the normal on the side of the path
+  double u, v;         ///< two more random numbers of the path, for the solar disc
   double distance_m;
 };
 
 ReflectedLight::ReflectedLight(const RayVisibility& rays, SkyCache& cache, int bounces,
                                Vec3 position, Vec3 normal, SampleRandom random)
-    : rays_(rays), cache_(cache), bounces_(bounces), origin_(position + rays.lift_m() * normal),
-      normal_(normal), scramble_(random.bits()), batch_sum_(kBatches),
+    : rays_(rays),
+      cache_(cache),
+      bounces_(bounces),
+      origin_(position + rays.lift_m() * normal),
+      normal_(normal),
+      scramble_(random.bits()),
+      batch_sum_(kBatches),
       order_sum_(static_cast<std::size_t>(bounces) + 1),
       sun_frame_(tangent_frame(cache.source().sun.direction)) {}
 
@@ -66,8 +71,8 @@ void ReflectedLight::trace_path(PathStart start, int last_order, const AtVertex&
     const Vec3 point = rays_.on_plane(hit->triangle, origin + hit->distance_m * direction);
     origin = point + rays_.lift_m() * normal;
     const Material& material = rays_.materials()[rays_.soup().material[hit->triangle]];
-    const double diffuse_part = std::max({material.reflectance.r, material.reflectance.g,
-                                          material.reflectance.b});
+    const double diffuse_part =
+        std::max({material.reflectance.r, material.reflectance.g, material.reflectance.b});
     const double to_mirror =
         material.mirror > 0.0 ? material.mirror / (material.mirror + diffuse_part) : 0.0;
     if (to_mirror > 0.0 && mirrors < kMostMirrors && chance.uniform() < to_mirror) {
@@ -97,8 +102,8 @@ void ReflectedLight::trace_looked_up(int goal) {
     const PathStart start{static_cast<std::uint32_t>(looked_up_paths_ / kBatches),
                           mix_bits(scramble_ + batch)};
     trace_path(start, bounces_, [&](const Vertex& v) {
-      const std::uint64_t address = mix_bits(mix_bits(start.scramble + start.index) ^
-                                             static_cast<unsigned>(v.order));
+      const std::uint64_t address =
+          mix_bits(mix_bits(start.scramble + start.index) ^ static_cast<unsigned>(v.order));
       const double direct = sky_lux(v, address) + sun_lux(v.point, v.normal, v.u, v.v);
       const Rgb leaving = v.material.emission_lm_m2 + direct * v.material.reflectance;
       const double lux = luminance_of(v.weight * leaving);
@@ -161,7 +166,8 @@ double ReflectedLight::sky_lux(const Vertex& v, std::uint64_t address) {
 }
 
 double ReflectedLight::true_sky_lux(Vec3 point, Vec3 normal, std::uint64_t address, int slices) {
-  SensorSky sky(rays_, cache_.source().sky.get(), point, normal, SampleRandom(scramble_, address, 2),
+  SensorSky sky(rays_, cache_.source().sky.get(), point, normal,
+                SampleRandom(scramble_, address, 2),
                 SensorSky::Effort{.first_slices = slices, .halving = false});
   sky.refine();
   rays_sent_ += sky.rays_sent();
@@ -171,9 +177,8 @@ double ReflectedLight::true_sky_lux(Vec3 point, Vec3 normal, std::uint64_t addre
 void ReflectedLight::refine() {
   const bool differs = way_ == SkyBy::Cache && cache_.source().sky != nullptr;
   const std::uint64_t before = rays_sent_;
-  if (looked_up_paths_ == 0 ||
-      looked_up_.variance * static_cast<double>(difference_rays_) >=
-          difference_.variance * static_cast<double>(looked_up_rays_)) {
+  if (looked_up_paths_ == 0 || looked_up_.variance * static_cast<double>(difference_rays_) >=
+                                   difference_.variance * static_cast<double>(looked_up_rays_)) {
     trace_looked_up(looked_up_paths_ == 0 ? kFirstPaths : 2 * looked_up_paths_);
     looked_up_rays_ += rays_sent_ - before;
     if (difference_paths_ > 0 || !differs) return;

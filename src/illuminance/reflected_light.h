@@ -16,9 +16,10 @@ namespace tenku {
 /// same way at each surface it meets, where a ray asks for the sun. The skylight there is found in
 /// one of two ways:
 ///          by a slice of the sky at a random azimuth: cheap, good under an open sky;
-///          from a cache, good indoors, where few slices would meet a window: a few paths more, drawn
-///          apart, measure the skylight at one of their surfaces and take the mean of its
-///          difference from the cache. What the cache gets wrong becomes noise, never bias. Emitting surfaces count
+///          from a cache, good indoors, where few slices would meet a window: a few paths more,
+///          drawn apart, measure the skylight at one of their surfaces and take the mean of its
+///          difference from the cache. What the cache gets wrong becomes noise, never bias.
+///          Emitting surfaces count
 /// where paths meet them.
 ///
 /// Error    looked-up paths: variance of the mean of `kBatches` independent scrambles, widened for

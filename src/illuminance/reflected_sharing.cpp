@@ -10,8 +10,8 @@
 namespace tenku {
 namespace {
 
-constexpr double kNormalSteps = 50.0;   // of a normal's component that counts as one plane
-constexpr double kOffsetSteps = 2.0;    // a metre
+constexpr double kNormalSteps = 50.0;  // of a normal's component that counts as one plane
+constexpr double kOffsetSteps = 2.0;   // a metre
 
 }  // namespace
 
@@ -33,7 +33,9 @@ ReflectedSharing::Cell ReflectedSharing::cell_of(std::size_t sensor) const {
     const double step = is_flat(sensor) ? part / 10.0 : part;
     plane = mix_bits(plane + static_cast<std::uint64_t>(std::llround(step)));
   }
-  const auto index = [&](double x) { return static_cast<std::int64_t>(std::floor(x / distance_m_)); };
+  const auto index = [&](double x) {
+    return static_cast<std::int64_t>(std::floor(x / distance_m_));
+  };
   return {plane, index(p.x), index(p.y), index(p.z)};
 }
 

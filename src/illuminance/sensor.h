@@ -30,7 +30,10 @@ struct SensorIlluminance {
   std::vector<double> sky_view;  ///< cosine-weighted visible fraction of the whole sky dome
 
   explicit SensorIlluminance(std::size_t sensors = 0)
-      : sun_lux(sensors), sky_lux(sensors), reflected_lux(sensors), error_lux(sensors),
+      : sun_lux(sensors),
+        sky_lux(sensors),
+        reflected_lux(sensors),
+        error_lux(sensors),
         sky_view(sensors) {}
 
   std::size_t size() const { return sun_lux.size(); }

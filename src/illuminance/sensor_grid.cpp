@@ -18,9 +18,7 @@ struct Corners {
 
   Vec3 at(double u, double v) const { return a + u * (b - a) + v * (c - a); }
   Vec3 middle() const { return (1.0 / 3.0) * (a + b + c); }
-  double longest_side() const {
-    return std::max({length(b - a), length(c - b), length(a - c)});
-  }
+  double longest_side() const { return std::max({length(b - a), length(c - b), length(a - c)}); }
 };
 
 /// Adds the sensors and parts of one triangle.

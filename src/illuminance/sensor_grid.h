@@ -21,7 +21,7 @@ namespace tenku {
 /// Shape    `corner_sensor` and `corner_point` are [part][3]; `triangle` is [part], into the soup.
 struct SensorGrid {
   Sensors sensors;
-  std::vector<double> area_m2;  ///< [sensor], what it stands for
+  std::vector<double> area_m2;    ///< [sensor], what it stands for
   std::vector<SurfaceType> type;  ///< [sensor]
   std::vector<std::array<std::uint32_t, 3>> corner_sensor;
   std::vector<std::array<Vec3, 3>> corner_point;

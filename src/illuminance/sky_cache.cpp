@@ -70,9 +70,10 @@ struct SkyCache::Shard {
   std::unordered_map<std::uint64_t, float> value;
 };
 
-SkyCache::SkyCache(const RayVisibility& rays, const DaylightSource& source,
-                         std::uint64_t seed)
-    : rays_(rays), source_(source), seed_(seed),
+SkyCache::SkyCache(const RayVisibility& rays, const DaylightSource& source, std::uint64_t seed)
+    : rays_(rays),
+      source_(source),
+      seed_(seed),
       shards_(std::make_unique<std::array<Shard, kShards>>()) {}
 
 SkyCache::~SkyCache() = default;

@@ -25,8 +25,8 @@ class SkyCache {
   SkyCache(const RayVisibility& rays, const DaylightSource& source, std::uint64_t seed);
   ~SkyCache();
 
-  /// Illuminance (lux) from the visible sky near `point` of `triangle`, on the side to which `normal` points,
-  /// for someone at `distance_m`.
+  /// Illuminance (lux) from the visible sky near `point` of `triangle`, on the side to which
+  /// `normal` points, for someone at `distance_m`.
   double lux(std::uint32_t triangle, Vec3 point, Vec3 normal, double distance_m);
 
   const DaylightSource& source() const { return source_; }

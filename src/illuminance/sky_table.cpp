@@ -32,7 +32,8 @@ int count_for(double whole_deg, double step_deg, int least, int most) {
 
 SkyTable::SkyTable(const SkyModel& sky)
     : columns_(count_for(360.0, sky.detail().in_degrees(), 360, 8192)),
-      rows_(count_for(90.0, sky.detail().in_degrees(), 90, 2048)), row_rad_(kHalfPi / rows_),
+      rows_(count_for(90.0, sky.detail().in_degrees(), 90, 2048)),
+      row_rad_(kHalfPi / rows_),
       node_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_ + 1) *
             kNodeFloats) {
   parallel_for(static_cast<std::size_t>(columns_), 8, [&](IndexRange range) {
@@ -51,7 +52,8 @@ void SkyTable::fill_column(const SkyModel& sky, int column) {
     const double altitude = std::min(row * row_rad_, kHalfPi);
     const double c = std::cos(altitude), s = std::sin(altitude), l = luminance(altitude);
     float* node = &node_[(static_cast<std::size_t>(column) * static_cast<std::size_t>(rows_ + 1) +
-                          static_cast<std::size_t>(row)) * kNodeFloats];
+                          static_cast<std::size_t>(row)) *
+                         kNodeFloats];
     node[0] = static_cast<float>(along);
     node[1] = static_cast<float>(l * c * c * row_rad_);
     node[2] = static_cast<float>(up);

@@ -11,9 +11,9 @@ namespace tenku {
 
 /// Squares of the plan that lie on open ground, and the buildings around them.
 struct GroundPlan {
-  PlanGrid grid;                     ///< values not yet filled in: all NaN
-  std::vector<std::size_t> cell;     ///< [sensor], which square
-  Sensors sensors;                   ///< facing up, where the ground lies under a square's middle
+  PlanGrid grid;                  ///< values not yet filled in: all NaN
+  std::vector<std::size_t> cell;  ///< [sensor], which square
+  Sensors sensors;                ///< facing up, where the ground lies under a square's middle
   std::vector<PlanFace> buildings;
 
   void fill(const SensorIlluminance& values);

@@ -33,8 +33,9 @@ void add_place(FieldMesh& mesh, const LitScene& lit) {
   const Vec3 origin = lit.scene().frame.origin();
   const auto& at = lit.scene().georeference;
   mesh.texts.push_back({"crs", {at ? at->crs : ""}});
-  mesh.texts.push_back({"origin", {shortest_text(origin.x) + " " + shortest_text(origin.y) + " " +
-                                   shortest_text(origin.z)}});
+  mesh.texts.push_back(
+      {"origin",
+       {shortest_text(origin.x) + " " + shortest_text(origin.y) + " " + shortest_text(origin.z)}});
   mesh.texts.push_back({"sky", {lit.sky().description}});
 }
 

@@ -111,7 +111,8 @@ SensorGrid LitScene::grid(std::span<const std::string> surfaces, double spacing_
   append_sensors(grid, *soup_, own, spacing_m);
   append_sensors(grid, *soup_, given,
                  std::max(spacing_m, std::sqrt(given_area / kGivenGroundSensors)));
-  if (grid.sensors.size() == 0) throw InputError("the scene has no surfaces of the kinds asked for");
+  if (grid.sensors.size() == 0)
+    throw InputError("the scene has no surfaces of the kinds asked for");
   return grid;
 }
 

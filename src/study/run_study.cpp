@@ -64,13 +64,16 @@ ViewRequest view_request_of(const StudyView& view, const Study& study, const Lit
 class StudyRun {
  public:
   StudyRun(const Study& study, const fs::path& folder, Progress& progress)
-      : study_(study), folder_(folder), progress_(progress),
-        lit_(study.scene.file, read_options_of(study.scene),
-             [&](const std::optional<Location>& scene_site) {
-               moment_ = moment_of(study, scene_site);
-               return sky_of(study, moment_);
-             },
-             progress_),
+      : study_(study),
+        folder_(folder),
+        progress_(progress),
+        lit_(
+            study.scene.file, read_options_of(study.scene),
+            [&](const std::optional<Location>& scene_site) {
+              moment_ = moment_of(study, scene_site);
+              return sky_of(study, moment_);
+            },
+            progress_),
         report_(study, lit_, moment_) {}
 
   void render(const StudyView& view) {
@@ -105,7 +108,8 @@ class StudyRun {
     const IlluminanceResult result = light(ground.sensors, kShare * ground.grid.cell_m);
     ground.fill(result.values);
     const Image8 map = plan_map(report_.plan_of(ground, result.values, plan));
-    write_png(place("plan.png"), map, {.title = report_.title(), .time = report_.time_text(), .units = {}});
+    write_png(place("plan.png"), map,
+              {.title = report_.title(), .time = report_.time_text(), .units = {}});
     report_.add_plan(map);
   }
 
@@ -124,8 +128,7 @@ class StudyRun {
   IlluminanceResult light(const Sensors& sensors, double share_reflected_m) {
     IlluminanceOptions options = illuminance_options_of(study_.calculation);
     options.share_reflected_m = share_reflected_m;
-    IlluminanceResult result =
-        illuminate(sensors, lit_.rays(), lit_.source(), options, progress_);
+    IlluminanceResult result = illuminate(sensors, lit_.rays(), lit_.source(), options, progress_);
     outcome_.out_of_tolerance += result.out_of_tolerance;
     report_.add_light(result);
     return result;
@@ -148,8 +151,9 @@ class StudyRun {
 /// Refuses before the long work what would stop it later.
 void check_study(const Study& study) {
   if (study.calculation.engine == "shadow-maps") {
-    throw InputError("engine in [calculation] is 'shadow-maps': this version has no shadow-map "
-                     "engine; use 'rays'");
+    throw InputError(
+        "engine in [calculation] is 'shadow-maps': this version has no shadow-map "
+        "engine; use 'rays'");
   }
   for (const StudySensors& sensors : study.sensors) read_sensor_file(sensors.file);
 }

@@ -15,7 +15,7 @@
 namespace tenku {
 namespace {
 
-constexpr double kMargin = 30.0;       // pixels about the plan, for the letters of the compass
+constexpr double kMargin = 30.0;  // pixels about the plan, for the letters of the compass
 constexpr double kLegendHeight = 84.0;
 
 /// Direction of a place on the plan, `x` to the east and `y` to the north, horizon at radius 1.

@@ -60,7 +60,8 @@ std::string ReportBuilder::time_text() const {
 
 std::string ReportBuilder::place_in_words() const {
   if (!moment_.site) return "place not given";
-  const double lat = moment_.site->latitude.in_degrees(), lon = moment_.site->longitude.in_degrees();
+  const double lat = moment_.site->latitude.in_degrees(),
+               lon = moment_.site->longitude.in_degrees();
   return fmt::format("{:.4f}° {}, {:.4f}° {}", std::abs(lat), lat < 0 ? "S" : "N", std::abs(lon),
                      lon < 0 ? "W" : "E");
 }
@@ -70,18 +71,21 @@ std::string ReportBuilder::time_in_words() const {
   const CivilTime& time = *moment_.time;
   const CalendarTime c = utc_calendar(later_by(time.instant, 60.0 * time.offset_minutes));
   const std::string clock = study_.time.zone == "solar" ? "mean solar time"
-                            : time.zone.empty()         ? fmt::format("UTC{:+.2g} h", time.offset_minutes / 60.0)
-                                                        : "time of " + time.zone;
-  return fmt::format("{} {} {}, {:02}:{:02} {}", c.day, kMonths[static_cast<std::size_t>(c.month - 1)],
-                     c.year, c.hour, c.minute, clock);
+                            : time.zone.empty()
+                                ? fmt::format("UTC{:+.2g} h", time.offset_minutes / 60.0)
+                                : "time of " + time.zone;
+  return fmt::format("{} {} {}, {:02}:{:02} {}", c.day,
+                     kMonths[static_cast<std::size_t>(c.month - 1)], c.year, c.hour, c.minute,
+                     clock);
 }
 
 void ReportBuilder::add_view(const RenderedView& view, const StudyView& request) {
   rays_ += view.rays;
   if (content_.view) return;  // the first one stands at the head of the report
   const Image8 picture = picture_of(view, request.show);
-  content_.view = ReportPicture{png_bytes(picture), "View of the scene: " + request.name,
-                                "The scene as lit at this hour. Brightness as a camera would see it."};
+  content_.view =
+      ReportPicture{png_bytes(picture), "View of the scene: " + request.name,
+                    "The scene as lit at this hour. Brightness as a camera would see it."};
 }
 
 void ReportBuilder::add_light(const IlluminanceResult& result) {
@@ -109,7 +113,7 @@ void ReportBuilder::add_field(const SensorGrid& grid, const SensorIlluminance& v
     s.band[static_cast<std::size_t>(band)] += area;
   }
   for (const auto& [type, s] : sums) {
-    ReportSurface surface{std::string(name_of(type)), s.area,  s.lux / s.area, s.lowest, s.highest,
+    ReportSurface surface{std::string(name_of(type)), s.area, s.lux / s.area, s.lowest, s.highest,
                           s.error / s.area,           {}};
     for (const double area : s.band) surface.band_shares.push_back(area / s.area);
     content_.surfaces.push_back(std::move(surface));
@@ -149,8 +153,9 @@ PlanMap ReportBuilder::plan_of(const GroundPlan& ground, const SensorIlluminance
 }
 
 void ReportBuilder::add_plan(const Image8& map) {
-  content_.plan = ReportPicture{png_bytes(map), "Plan of the illuminance on the ground",
-                                "Illuminance on the ground, horizontal, seen from above; north is up."};
+  content_.plan =
+      ReportPicture{png_bytes(map), "Plan of the illuminance on the ground",
+                    "Illuminance on the ground, horizontal, seen from above; north is up."};
 }
 
 std::string ReportBuilder::sun_path() const {
@@ -163,8 +168,8 @@ std::string ReportBuilder::sun_path() const {
     // December to June going up, the rest coming down: each pair of months shares its arc.
     const bool labelled = arc.number >= 6 && arc.number <= 12;
     const auto month = static_cast<std::size_t>(arc.number - 1);
-    diagram.days.push_back({labelled ? fmt::format("21 {}", kShortMonths[month]) : "",
-                            diagram_points(arc.points)});
+    diagram.days.push_back(
+        {labelled ? fmt::format("21 {}", kShortMonths[month]) : "", diagram_points(arc.points)});
   }
   for (const auto& line : path.hour_lines) {
     diagram.hours.push_back({std::to_string(line.number), diagram_points(line.points)});
@@ -182,10 +187,11 @@ std::vector<ReportFigure> ReportBuilder::figures() const {
   figures.push_back({"Average on the ground", lux_text(ground_->mean), "lx",
                      fmt::format("± {} lx at a point (95 %)", lux_text(ground_->error)),
                      "Mean over all open ground between the buildings."});
-  figures.push_back({"Ground in sunlight", fmt::format("{:.0f}", 100.0 * ground_->sunlit_share), "%",
-                     "", "Share of the open ground that the sun reaches at this moment."});
-  figures.push_back({"Darkest and brightest", lux_text(ground_->lowest) + " – " + lux_text(ground_->highest),
-                     "lx", "", "The range over the open ground."});
+  figures.push_back({"Ground in sunlight", fmt::format("{:.0f}", 100.0 * ground_->sunlit_share),
+                     "%", "", "Share of the open ground that the sun reaches at this moment."});
+  figures.push_back({"Darkest and brightest",
+                     lux_text(ground_->lowest) + " – " + lux_text(ground_->highest), "lx", "",
+                     "The range over the open ground."});
   return figures;
 }
 
@@ -216,13 +222,16 @@ ReportContent ReportBuilder::content() const {
   content.sun_path_svg = sun_path();
   content.findings = findings();
   content.method = {
-      "Sunlight comes from the solar disc, so that shadows have soft edges. Skylight is summed over "
+      "Sunlight comes from the solar disc, so that shadows have soft edges. Skylight is summed "
+      "over "
       "vertical slices of the sky; in each the skyline is found from the model itself. Reflected "
-      "light follows paths of up to " + std::to_string(study_.calculation.bounces) +
-      " diffuse reflections."};
+      "light follows paths of up to " +
+      std::to_string(study_.calculation.bounces) + " diffuse reflections."};
   content.error_statement = fmt::format(
-      "Every value carries a 95 % interval: the true value of the model as given lies inside it for "
-      "19 of 20 points. Effort was spent until four standard errors were within {} % of each value; "
+      "Every value carries a 95 % interval: the true value of the model as given lies inside it "
+      "for "
+      "19 of 20 points. Effort was spent until four standard errors were within {} % of each "
+      "value; "
       "{} of {} points did not get there. Errors of the model itself, of its materials and of the "
       "sky are not included.",
       study_.calculation.tolerance_percent, out_of_tolerance_, sensors_);

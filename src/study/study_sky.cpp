@@ -33,8 +33,9 @@ StudyMoment moment_of(const Study& study, const std::optional<Location>& scene_s
                      "longitude_deg, or the sun's altitude and azimuth");
   }
   const bool solar = study.time.zone == "solar" && !has_offset(study.time.at);
-  moment.time = solar ? solar_time(study.time.at, *moment.site)
-                      : parse_time(study.time.at, study.time.zone == "solar" ? "" : study.time.zone);
+  moment.time = solar
+                    ? solar_time(study.time.at, *moment.site)
+                    : parse_time(study.time.at, study.time.zone == "solar" ? "" : study.time.zone);
   moment.sun = sun_at(*moment.site, moment.time->instant);
   return moment;
 }

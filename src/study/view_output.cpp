@@ -81,14 +81,17 @@ void place_overview(const LitScene& lit, PerspectiveView& view) {
   const Vec3 middle = 0.5 * (low + high), size = high - low;
   const double across = std::max(std::hypot(size.x, size.y), size.z);
   const double aspect = static_cast<double>(view.height) / view.width;
-  const double half = std::tan(0.5 * view.horizontal_fov.in_radians()) * std::min(1.0, 1.6 * aspect);
+  const double half =
+      std::tan(0.5 * view.horizontal_fov.in_radians()) * std::min(1.0, 1.6 * aspect);
   const double away = 0.42 * across / std::max(half, 0.05);
   view.target = middle;
   view.eye = middle + away * direction_from(Angle::degrees(215.0), Angle::degrees(32.0));
 }
 
 Image8 picture_of(const RenderedView& view, ViewKind kind) {
-  return kind == ViewKind::LuminanceImage ? tone_map(view.luminance, {.curve = ToneCurve::Reinhard, .ev100 = {}, .key = 0.28}) : with_legend(view, kind);
+  return kind == ViewKind::LuminanceImage
+             ? tone_map(view.luminance, {.curve = ToneCurve::Reinhard, .ev100 = {}, .key = 0.28})
+             : with_legend(view, kind);
 }
 
 void write_view(const std::filesystem::path& path, const RenderedView& view, ViewKind kind,

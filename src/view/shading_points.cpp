@@ -61,10 +61,10 @@ class PixelTracer {
       const Vec3 face = rays_.normal(hit->triangle);
       const Vec3 normal = dot(face, direction) < 0.0 ? face : -face;
       const std::uint32_t index = rays_.soup().material[hit->triangle];
-      const Vec3 position =
-          rays_.on_plane(hit->triangle, origin + hit->distance_m * direction);
+      const Vec3 position = rays_.on_plane(hit->triangle, origin + hit->distance_m * direction);
       add({position, normal, index, surface_key(rays_, hit->triangle, normal), weight, 1,
-           mirrors == 0}, pixel);
+           mirrors == 0},
+          pixel);
       const double mirror = rays_.materials()[index].mirror;
       if (!(mirror > 0.0) || mirrors == kMostMirrors) return;
       // Schlick's rise of the reflectance toward grazing incidence.

@@ -98,7 +98,7 @@ IlluminanceOptions options_of(const ViewRequest& request) {
   options.tolerance_pct = std::min(100.0, 12.0 * request.tolerance_pct);
   options.bounces = 0;
   options.floor_share = 0.01;  // darker is black in any picture
-  options.first_slices = 8;  // averaged with the pixels around
+  options.first_slices = 8;    // averaged with the pixels around
   options.seed = request.seed;
   return options;
 }
@@ -143,8 +143,7 @@ void compose(const ShadingPoints& points, const SensorIlluminance& light,
   for (std::size_t i = 0; i < points.sensors.size(); ++i) {
     const std::size_t p = points.pixel_index[i];
     const Material& material = materials[points.material[i]];
-    const Rgb leaving =
-        material.emission_lm_m2 + light.total_lux(i) * material.reflectance;
+    const Rgb leaving = material.emission_lm_m2 + light.total_lux(i) * material.reflectance;
     result.luminance.pixels[p] =
         result.luminance.pixels[p] + (1.0 / kPi) * (points.weight[i] * leaving);
     if (!points.is_seen_directly[i]) continue;
@@ -170,7 +169,8 @@ void compose(const ShadingPoints& points, const SensorIlluminance& light,
 RenderedView render_view(const ViewRequest& request, const RayVisibility& rays,
                          const DaylightSource& source, const SkyModel* sky, Progress& progress) {
   const PerspectiveCamera camera(request.view);
-  const ShadingPoints points = find_shading_points(camera, rays, backdrop_of(source, sky), progress);
+  const ShadingPoints points =
+      find_shading_points(camera, rays, backdrop_of(source, sky), progress);
   IlluminanceResult light = illuminate(points.sensors, rays, source, options_of(request), progress);
   smooth_sky(points, light.values);
   RenderedView result;

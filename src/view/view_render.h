@@ -30,10 +30,10 @@ struct ViewRequest {
 /// Error    a pixel's standard error is held to the tolerance, not its four-fold: pictures are
 ///          seen, not measured; `error_lux` tells the 95 % interval.
 struct RenderedView {
-  Image luminance;                 ///< linear RGB, cd/m2, the sky behind
+  Image luminance;                                 ///< linear RGB, cd/m2, the sky behind
   std::vector<double> illuminance_lux, error_lux;  ///< NaN where the sky is seen
   std::uint64_t rays = 0;
-  double error_mean = 0.0;         ///< mean of error_lux over the pixels that have one
+  double error_mean = 0.0;  ///< mean of error_lux over the pixels that have one
 };
 
 /// @param sky  for what is seen behind the scene; null: black

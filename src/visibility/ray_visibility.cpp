@@ -93,8 +93,8 @@ void gather_pane(const RTCFilterFunctionNArguments* arguments) {
   const std::uint32_t triangle = (*query->glass)[hit.primID];
   const double cosine = std::abs(dot(query->visibility->normal(triangle), query->direction));
   const auto& soup = query->visibility->soup();
-  query->transmission *= pane_transmittance(
-      query->visibility->materials()[soup.material[triangle]], std::min(1.0, cosine));
+  query->transmission *= pane_transmittance(query->visibility->materials()[soup.material[triangle]],
+                                            std::min(1.0, cosine));
   arguments->valid[0] = 0;  // not a stop: go on to the next pane
 }
 
@@ -133,7 +133,9 @@ struct RayVisibility::Device {
 };
 
 RayVisibility::RayVisibility(const TriangleSoup& soup, const std::vector<Material>& materials)
-    : soup_(soup), materials_(materials), adjacency_(soup),
+    : soup_(soup),
+      materials_(materials),
+      adjacency_(soup),
       lift_m_(std::max(1e-5, 4.0 * 0x1.0p-24 * extent_of(soup))),
       device_(std::make_unique<Device>()) {
   for (std::uint32_t t = 0; t < soup.size(); ++t) {
@@ -151,8 +153,8 @@ bool RayVisibility::has_glass() const { return !device_->glass.empty(); }
 
 Vec3 RayVisibility::normal(std::uint32_t triangle) const {
   const auto& [a, b, c] = soup_.triangles[triangle];
-  return normalized(cross(soup_.vertices[b] - soup_.vertices[a],
-                          soup_.vertices[c] - soup_.vertices[a]));
+  return normalized(
+      cross(soup_.vertices[b] - soup_.vertices[a], soup_.vertices[c] - soup_.vertices[a]));
 }
 
 Vec3 RayVisibility::on_plane(std::uint32_t triangle, Vec3 point) const {
@@ -228,7 +230,8 @@ void RayVisibility::transmission(std::span<const Vec3> origin, std::span<const V
 double pane_transmittance(const Material& glass, double cos_incidence) {
   if (glass.index > 0.0) return clear_pane(cos_incidence, glass.index);
   constexpr double kUsualIndex = 1.52;  // soda-lime float glass
-  return glass.transmittance * clear_pane(cos_incidence, kUsualIndex) / clear_pane(1.0, kUsualIndex);
+  return glass.transmittance * clear_pane(cos_incidence, kUsualIndex) /
+         clear_pane(1.0, kUsualIndex);
 }
 
 }  // namespace tenku

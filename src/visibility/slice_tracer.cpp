@@ -12,7 +12,7 @@ constexpr double kHalfPi = std::numbers::pi / 2.0;
 constexpr int kMostSteps = 2000;  // along one mesh; longer chains are cut, and the check tells
 constexpr int kMostClimbs = 48;
 constexpr double kTouching = 1e-4;  // radians between two surfaces that count as one
-constexpr double kBeyond = 1e-5;  // radians past an outline at which the next ray is sent
+constexpr double kBeyond = 1e-5;    // radians past an outline at which the next ray is sent
 
 }  // namespace
 
@@ -96,9 +96,13 @@ SliceTracer::Outline SliceTracer::follow(std::uint32_t triangle, int sense) cons
     triangle = next;
     edge = beside_a ? (entry + 1) % 3 : (entry + 2) % 3;
   }
-  const double altitude = best.r <= 0.0 ? (best.z > 0.0 ? kHalfPi : 0.0) : std::atan2(best.z, best.r);
+  const double altitude =
+      best.r <= 0.0 ? (best.z > 0.0 ? kHalfPi : 0.0) : std::atan2(best.z, best.r);
   const auto& corners = soup.triangles[triangle];
-  return {altitude, triangle, std::sqrt(best.r * best.r + best.z * best.z), {corners[edge], corners[(edge + 1) % 3]}};
+  return {altitude,
+          triangle,
+          std::sqrt(best.r * best.r + best.z * best.z),
+          {corners[edge], corners[(edge + 1) % 3]}};
 }
 
 std::uint32_t SliceTracer::cut_near(std::uint32_t triangle) const {

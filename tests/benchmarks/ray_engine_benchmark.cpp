@@ -27,8 +27,8 @@ struct Town {
       for (int k = 0; k < 256; ++k) {
         const double u = random.uniform(), turn = 2.0 * kPi * (k + random.uniform()) / 256.0;
         origin.push_back(at);
-        direction.push_back({std::sqrt(u) * std::sin(turn), std::sqrt(u) * std::cos(turn),
-                             std::sqrt(1.0 - u)});
+        direction.push_back(
+            {std::sqrt(u) * std::sin(turn), std::sqrt(u) * std::cos(turn), std::sqrt(1.0 - u)});
       }
     }
   }
@@ -70,8 +70,8 @@ void BM_BareEmbreeLoop(benchmark::State& state) {
   RTCScene scene = rtcNewScene(device);
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                        RTC_FORMAT_FLOAT3, 12, t.soup.vertices.size()));
+  auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, t.soup.vertices.size()));
   for (const Vec3& p : t.soup.vertices) {
     *v++ = static_cast<float>(p.x), *v++ = static_cast<float>(p.y), *v++ = static_cast<float>(p.z);
   }
@@ -88,9 +88,12 @@ void BM_BareEmbreeLoop(benchmark::State& state) {
   for (auto _ : state) {
     for (std::size_t k = 0; k < t.origin.size(); ++k) {
       RTCRay ray{};
-      ray.org_x = static_cast<float>(t.origin[k].x), ray.dir_x = static_cast<float>(t.direction[k].x);
-      ray.org_y = static_cast<float>(t.origin[k].y), ray.dir_y = static_cast<float>(t.direction[k].y);
-      ray.org_z = static_cast<float>(t.origin[k].z), ray.dir_z = static_cast<float>(t.direction[k].z);
+      ray.org_x = static_cast<float>(t.origin[k].x),
+      ray.dir_x = static_cast<float>(t.direction[k].x);
+      ray.org_y = static_cast<float>(t.origin[k].y),
+      ray.dir_y = static_cast<float>(t.direction[k].y);
+      ray.org_z = static_cast<float>(t.origin[k].z),
+      ray.dir_z = static_cast<float>(t.direction[k].z);
       ray.tfar = std::numeric_limits<float>::infinity();
       ray.mask = ~0U;
       rtcOccluded1(scene, &context, &ray);

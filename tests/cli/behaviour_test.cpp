@@ -20,7 +20,6 @@ using nlohmann::json;
 const std::string kColumns =
     "x,y,z,nx,ny,nz,sun_lux,sky_lux,reflected_lux,total_lux,error_lux,sky_view";
 
-
 void expect_keys(const std::string& text, const std::vector<std::string>& keys) {
   const json summary = json::parse(text);
   for (const std::string& key : keys) EXPECT_TRUE(summary.contains(key)) << key << "\n" << text;
@@ -50,8 +49,8 @@ TEST(Contract, StandardOutputHoldsTheTableAndNothingElse) {
 TEST(Contract, SummariesHaveTheirKeys) {
   const fs::path folder = test_folder();
   write_box_scene(folder);
-  const auto lux = run_tenku(
-      "illuminance box.obj --sensors open.pts --out o.csv --json --quiet" + kSky, folder);
+  const auto lux =
+      run_tenku("illuminance box.obj --sensors open.pts --out o.csv --json --quiet" + kSky, folder);
   ASSERT_EQ(lux.exit_code, 0) << lux.err;
   EXPECT_EQ(lux.err, "");
   expect_keys(lux.out, {"seconds", "rays", "depth_maps", "elements", "sensors", "error_mean"});
@@ -86,9 +85,10 @@ TEST(Contract, EveryCommandHasHelpWithAnExample) {
 TEST(Contract, AFullDeviceIsExitOne) {
   const fs::path folder = test_folder();
   write_box_scene(folder);
-  const std::string command = "cd '" + folder.string() + "' && '" TENKU_PROGRAM
-                              "' illuminance box.obj --sensors open.pts --quiet --out -" + kSky +
-                              " > /dev/full 2> said.err";
+  const std::string command = "cd '" + folder.string() +
+                              "' && '" TENKU_PROGRAM
+                              "' illuminance box.obj --sensors open.pts --quiet --out -" +
+                              kSky + " > /dev/full 2> said.err";
   const int status = std::system(command.c_str());
   EXPECT_EQ(WEXITSTATUS(status), 1);
   EXPECT_NE(contents_of(folder / "said.err").find("standard output"), std::string::npos);
@@ -180,9 +180,8 @@ TEST(Contract, AStudyWithEveryTableWritesEveryOutput) {
   write_text(folder / "s.toml", kEveryTable);
   const auto run = run_tenku("run s.toml --out results --json --quiet", folder);
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  for (const std::string name :
-       {"view.png", "view.exr", "view.hdr", "field.vtp", "points.csv", "plan.png", "sun_path.svg",
-        "report.html", "manifest.json"}) {
+  for (const std::string name : {"view.png", "view.exr", "view.hdr", "field.vtp", "points.csv",
+                                 "plan.png", "sun_path.svg", "report.html", "manifest.json"}) {
     EXPECT_TRUE(fs::exists(folder / "results" / name)) << name;
   }
   EXPECT_EQ(contents_of(folder / "results/points.csv").substr(0, kColumns.size()), kColumns);
@@ -219,9 +218,10 @@ TEST(Contract, CtrlCStopsAtOnceAndLeavesNothing) {
              "[sun]\naltitude_deg = 40\nazimuth_deg = 180\n"
              "[calculation]\ntolerance_percent = 0.01\n[[illuminance]]\nspacing_m = 0.05\n");
   for (const std::string& arguments : std::vector<std::string>{
-        "illuminance box.obj --grid ground,walls --spacing 0.05 --tolerance 0.01 --out o.csv" + kSky,
-        "render box.obj --size 2000x2000 --tolerance 0.01 --out o.png" + kSky,
-        "run s.toml --out results"}) {
+           "illuminance box.obj --grid ground,walls --spacing 0.05 --tolerance 0.01 --out o.csv" +
+               kSky,
+           "render box.obj --size 2000x2000 --tolerance 0.01 --out o.png" + kSky,
+           "run s.toml --out results"}) {
     const Interrupted stopped = interrupt(arguments, folder);
     EXPECT_EQ(stopped.exit_code, 1) << arguments << stopped.err;
     EXPECT_NE(stopped.err.find("stopped by the user"), std::string::npos) << stopped.err;

@@ -61,12 +61,12 @@ TEST_P(RealCity, IlluminanceIsBetweenNothingAndTheOpenSky) {
   scene += GetParam().up == 1 ? 'y' : 'z';
   const ProgramRun seen = run_tenku("inspect " + scene + " --json --quiet", folder);
   ASSERT_EQ(seen.exit_code, 0) << seen.err;
-  std::ofstream(folder / "s.pts")
-      << sensors_over(nlohmann::json::parse(seen.out)["extent"], GetParam().up);
-  const ProgramRun run = run_tenku(
-      "illuminance " + scene + " --sensors s.pts --sky uniform --sky-illuminance 10000" +
-          " --sun-illuminance 0 --tolerance 50 --bounces 1 --out o.csv",
-      folder);
+  std::ofstream(folder / "s.pts") << sensors_over(nlohmann::json::parse(seen.out)["extent"],
+                                                  GetParam().up);
+  const ProgramRun run =
+      run_tenku("illuminance " + scene + " --sensors s.pts --sky uniform --sky-illuminance 10000" +
+                    " --sun-illuminance 0 --tolerance 50 --bounces 1 --out o.csv",
+                folder);
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const ReferenceTable table((folder / "o.csv").string());
   ASSERT_EQ(table.size(), 37u);
@@ -85,11 +85,10 @@ TEST_P(RealCity, IlluminanceIsBetweenNothingAndTheOpenSky) {
   EXPECT_GT(lit, 10u);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Cities, RealCity,
-    testing::Values(City{"city/cityjson/denhaag_tile01_v10.city.json", 2},
-                    City{"city/large/tokyo_minato_north_lod1.city.json.gz", 2},
-                    City{"city/large/linz_centre_lod2.obj.gz", 1}));
+INSTANTIATE_TEST_SUITE_P(Cities, RealCity,
+                         testing::Values(City{"city/cityjson/denhaag_tile01_v10.city.json", 2},
+                                         City{"city/large/tokyo_minato_north_lod1.city.json.gz", 2},
+                                         City{"city/large/linz_centre_lod2.obj.gz", 1}));
 
 }  // namespace
 }  // namespace tenku

@@ -27,7 +27,8 @@ Vec3 area_vector(const FieldMesh& mesh, std::uint32_t begin, std::uint32_t end) 
   Vec3 sum;
   for (std::uint32_t k = begin; k < end; ++k) {
     const std::uint32_t next = k + 1 < end ? k + 1 : begin;
-    sum = sum + cross(mesh.points[mesh.polygon_corners[k]], mesh.points[mesh.polygon_corners[next]]);
+    sum =
+        sum + cross(mesh.points[mesh.polygon_corners[k]], mesh.points[mesh.polygon_corners[next]]);
   }
   return sum;
 }
@@ -57,13 +58,13 @@ TEST(SkyFiles, ElementsAreADomeOfRadiusOneThatLooksInward) {
 // The brightest polygon of a clear sky is where the sun is: south-east, 40 degrees up.
 TEST(SkyFiles, BrightestElementIsAtTheSun) {
   const auto folder = test_folder();
-  const auto run = run_tenku(
-      "sky --sky cie:12 --sun-altitude 40 --sun-azimuth 135 --out sky.vtp", folder);
+  const auto run =
+      run_tenku("sky --sky cie:12 --sun-altitude 40 --sun-azimuth 135 --out sky.vtp", folder);
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const FieldMesh mesh = read_vtp(folder / "sky.vtp");
   const auto& luminance = values_named(mesh, "luminance_cd_m2");
-  const auto k = static_cast<std::size_t>(
-      std::max_element(luminance.begin(), luminance.end()) - luminance.begin());
+  const auto k = static_cast<std::size_t>(std::max_element(luminance.begin(), luminance.end()) -
+                                          luminance.begin());
   const Vec3 corner = mesh.points[mesh.polygon_corners[mesh.polygon_ends[k] - 1]];
   const Vec3 sun = direction_from(Angle::degrees(135.0), Angle::degrees(40.0));
   EXPECT_LT(angle_between(corner, sun).in_degrees(), 10.0);
@@ -85,8 +86,8 @@ std::pair<int, int> brightest(const StoredPicture& picture) {
 TEST(SkyFiles, PanoramaHasNorthInTheMiddleAndEastToItsRight) {
   const auto folder = test_folder();
   for (const std::string name : {"sky.hdr", "sky.exr"}) {
-    const auto run = run_tenku(
-        "sky --sky cie:12 --sun-altitude 40 --sun-azimuth 135 --out " + name, folder);
+    const auto run =
+        run_tenku("sky --sky cie:12 --sun-altitude 40 --sun-azimuth 135 --out " + name, folder);
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const StoredPicture picture = read_picture(folder / name);
     ASSERT_EQ(picture.width, 2 * picture.height);
@@ -103,8 +104,8 @@ TEST(SkyFiles, PanoramaReadsBackAsTheSameSky) {
   const auto made = run_tenku(
       "sky --sky cie:12 --sky-illuminance 10000 --out sky.exr --json --quiet" + sun, folder);
   ASSERT_EQ(made.exit_code, 0) << made.err;
-  const auto read = run_tenku(
-      "sky --sky image:sky.exr --sky-illuminance 10000 --json --quiet" + sun, folder);
+  const auto read =
+      run_tenku("sky --sky image:sky.exr --sky-illuminance 10000 --json --quiet" + sun, folder);
   ASSERT_EQ(read.exit_code, 0) << read.err;
   const auto a = nlohmann::json::parse(made.out), b = nlohmann::json::parse(read.out);
   const double zenith = a["zenith_luminance_cd_m2"].get<double>();
@@ -130,8 +131,8 @@ TEST(SkyFiles, PlanHasNorthUpAndEastToTheRight) {
 
 TEST(SkyFiles, PictureOfTheProgramIsThePlan) {
   const auto folder = test_folder();
-  const auto run = run_tenku(
-      "sky --sky cie:12 --sun-altitude 40 --sun-azimuth 135 --out sky.png", folder);
+  const auto run =
+      run_tenku("sky --sky cie:12 --sun-altitude 40 --sun-azimuth 135 --out sky.png", folder);
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const StoredPicture picture = read_picture(folder / "sky.png");
   EXPECT_EQ(picture.width, 700);

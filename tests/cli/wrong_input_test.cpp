@@ -1,6 +1,5 @@
 // What the program says when the input is wrong: exit code 2, the value and where it stands.
 #include <gtest/gtest.h>
-
 #include <unistd.h>
 
 #include <vector>
@@ -106,19 +105,19 @@ TEST(WrongInput, FoldersAndMissingFilesAreNamed) {
   const fs::path folder = test_folder();
   write_box_scene(folder);
   fs::create_directory(folder / "model.obj");
-  expect_refused({{"inspect no.obj", "no.obj"},
-                  {"inspect model.obj", "model.obj is a folder"},
-                  {"illuminance no.obj --sensors open.pts --out o.csv" + kSky, "no.obj"},
-                  {"illuminance model.obj --sensors open.pts --out o.csv" + kSky, "is a folder"},
-                  {"illuminance box.obj --sensors no.pts --out o.csv" + kSky, "no.pts"},
-                  {"illuminance box.obj --sensors model.obj --out o.csv" + kSky, "is a folder"},
-                  {"illuminance box.obj --materials no.toml --sensors open.pts --out o.csv" + kSky,
-                   "no.toml"},
-                  {"render box.obj --materials model.obj --out o.png" + kSky, "model.obj"},
-                  {"run no.toml --out results", "no.toml"},
-                  {"run model.obj --out results", "model.obj"},
-                  {"sky --sky image:model.obj --json", "model.obj"}},
-                 folder);
+  expect_refused(
+      {{"inspect no.obj", "no.obj"},
+       {"inspect model.obj", "model.obj is a folder"},
+       {"illuminance no.obj --sensors open.pts --out o.csv" + kSky, "no.obj"},
+       {"illuminance model.obj --sensors open.pts --out o.csv" + kSky, "is a folder"},
+       {"illuminance box.obj --sensors no.pts --out o.csv" + kSky, "no.pts"},
+       {"illuminance box.obj --sensors model.obj --out o.csv" + kSky, "is a folder"},
+       {"illuminance box.obj --materials no.toml --sensors open.pts --out o.csv" + kSky, "no.toml"},
+       {"render box.obj --materials model.obj --out o.png" + kSky, "model.obj"},
+       {"run no.toml --out results", "no.toml"},
+       {"run model.obj --out results", "model.obj"},
+       {"sky --sky image:model.obj --json", "model.obj"}},
+      folder);
 }
 
 TEST(WrongInput, UnreadableFilesAreNamed) {

@@ -24,8 +24,8 @@ TEST(Vec3, AzimuthIsClockwiseFromNorth) {
 TEST(Vec3, TangentFrameIsRightHandedEverywhere) {
   SampleRandom random(1, 2, 3);
   for (int i = 0; i < 1000; ++i) {
-    const Vec3 n = normalized({random.uniform() - 0.5, random.uniform() - 0.5,
-                               random.uniform() - 0.5});
+    const Vec3 n =
+        normalized({random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5});
     const auto [t, b] = tangent_frame(n);
     EXPECT_NEAR(length(cross(t, b) - n), 0.0, 1e-12);
   }
