@@ -168,7 +168,7 @@ double ReflectedLight::sky_lux(const Vertex& v, std::uint64_t address) {
 double ReflectedLight::true_sky_lux(Vec3 point, Vec3 normal, std::uint64_t address, int slices) {
   SensorSky sky(rays_, cache_.source().sky.get(), point, normal,
                 SampleRandom(scramble_, address, 2),
-                SensorSky::Effort{.first_slices = slices, .halving = false});
+                SensorSky::Effort{.first_slices = slices, .outlined = false});
   sky.refine();
   rays_sent_ += sky.rays_sent();
   return sky.signed_lux();

@@ -1,53 +1,43 @@
 #include "illuminance/sensor_sky.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 
 namespace tenku {
 namespace {
 
-constexpr int kRareCheck = 4;          // one slice in so many is checked while all goes well
-constexpr int kDenseChecks = 4;        // rays a checked slice, where the checks dominate the error
-constexpr double kPiece = 0.05;        // radians of altitude over which panes count as one angle
-constexpr double kWorthHalving = 0.2;  // of the worst gap's error
-constexpr std::size_t kLookInto = 8;   // one gap in so many is halved in any case
+constexpr int kRareCheck = 4;           // one slice in so many is checked while all goes well
+constexpr int kDenseChecks = 4;         // rays a checked slice, where the checks dominate the error
+constexpr int kMostAgain = 3;           // times that all slices are traced again
+constexpr double kSameAltitude = 1e-3;  // radians
+constexpr double kNegligible = 1e-3;    // of the value, between two rules of integration
+
+// When outlines are believed.
+constexpr int kTests = 4;            // that they must have stood
+constexpr double kMuchBetter = 0.5;  // of the squares of what the mean of the neighbours misses
+constexpr double kFewPlaces = 0.1;   // of the gaps hold what is not known
+
+// What they tell.
+constexpr double kMissed = 0.4;       // of what the neighbours of a slice missed is missed still
+constexpr double kDoubt = 2.0;        // misses that might be of steps known by now
+constexpr double kPriorTests = 2.0;   // before any test so many count as made,
+constexpr double kPriorMiss = 0.5;    // and so much of the mean light as missed in them
+constexpr double kPriorShare = 0.25;  // of the open sky that a hole shows
+
+// Where slices are added.
+constexpr double kWorthFilling = 0.2;  // of the worst gap's error
+constexpr double kLeastHole = 0.02;    // of a gap
 
 constexpr double square(double x) { return x * x; }
 
 }  // namespace
 
-struct SensorSky::Work {
-  double along;  ///< component of the normal toward the azimuth
-  double up;
-  FrontRange front;
-  std::optional<SkyTable::Column> column;
-  VisibleSlice visible;
-
-  double weighted(SliceMoments m) const { return along * m.along + up * m.up; }
-  double view(double from, double to) const {
-    return weighted(uniform_moments(to) - uniform_moments(from)) / kPi;
-  }
-  double lux(double from, double to) const {
-    return column ? weighted(column->to(to) - column->to(from)) : 0.0;
-  }
-  /// What checks are drawn in proportion to: skylight, or the view of a uniform sky without one.
-  double measure(double from, double to) const { return column ? lux(from, to) : view(from, to); }
-  SkyTable::Column::Row row_reaching(double wanted, double low, double high) const {
-    if (!column) return {low, high};
-    return column->row_reaching(wanted + weighted(column->to(low)), along, up, low, high);
-  }
-};
-
 SensorSky::SensorSky(const RayVisibility& rays, const SkyTable* table, Vec3 position, Vec3 normal,
                      SampleRandom random, Effort effort)
-    : rays_(rays),
-      table_(table),
-      normal_(normal),
+    : sight_{rays, table, position + rays.lift_m() * normal, normal},
       random_(random),
       effort_(effort),
-      tracer_(rays, position + rays.lift_m() * normal),
+      tracer_(rays, sight_.origin),
       start_(2.0 * kPi * random_.uniform()) {}
 
 SensorSky::SensorSky(const RayVisibility& rays, const SkyTable* table, Vec3 position, Vec3 normal,
@@ -55,298 +45,316 @@ SensorSky::SensorSky(const RayVisibility& rays, const SkyTable* table, Vec3 posi
     : SensorSky(rays, table, position, normal, random, Effort{}) {}
 
 void SensorSky::refine() {
-  if (resolved_) {
-    halve_gaps();
+  if (is_filled_ || (is_outlined_ && has_sure_claims())) {
+    fill_gaps();
   } else {
+    const int known = tracer_.floating();
     double_evenly();
-    resolved_ = effort_.halving && is_resolved() && has_sure_claims();
+    if (tracer_.floating() > known && traced_again_ < kMostAgain) trace_again();
   }
   summarise();
 }
 
+/// Checks have met things that float: the slices made before did not know them. What the checks
+/// found is then part of the slices, and new slices must be checked in the place of all.
+void SensorSky::trace_again() {
+  for (Entry& entry : entry_) entry.slice = make_slice(entry.slice.azimuth, 0, 0.0);
+  for (Entry& entry : entry_) entry.is_new = true;
+  checks_ = {};
+  unchecked_ = true;
+  ++traced_again_;
+}
+
 void SensorSky::double_evenly() {
-  const std::size_t old = slice_.size();
+  const std::size_t old = entry_.size();
   const std::size_t count = old == 0 ? static_cast<std::size_t>(effort_.first_slices) : 2 * old;
   const double pitch = 2.0 * kPi / static_cast<double>(count);
-  const bool all_well = old > 0 && checks_.lux_squared == 0.0 && checks_.view == 0.0;
+  const bool all_well = old > 0 && !unchecked_ && checks_.lux_squared == 0.0 && checks_.view == 0.0;
   const int checks = checks_.lux_squared > 0.5 * variance_ ? kDenseChecks : 1;
   // All slices stand for half as much azimuth as before, and so do their checks.
   checks_ = {0.5 * checks_.lux, 0.5 * checks_.view, 0.25 * checks_.lux_squared};
-  std::vector<Slice> refined(count);
+  const double stands_for = pitch * (unchecked_ ? 2.0 : 1.0) * (all_well ? kRareCheck : 1);
+  std::vector<Entry> refined(count);
   for (std::size_t i = 0; i < count; ++i) {
     if (old > 0 && i % 2 == 0) {
-      refined[i] = slice_[i / 2];
+      refined[i].slice = entry_[i / 2].slice;
       continue;
     }
     const double azimuth =
         start_ + pitch * static_cast<double>(i) + kScatter * (random_.uniform() - 0.5);
     const bool checked = effort_.checked && (!all_well || (i / 2) % kRareCheck == 0);
-    refined[i] = make_slice(azimuth, checked ? checks : 0, pitch * (all_well ? kRareCheck : 1));
+    refined[i].slice = make_slice(azimuth, checked ? checks : 0, stands_for);
   }
-  slice_ = std::move(refined);
+  entry_ = std::move(refined);
+  unchecked_ = false;
 }
 
-void SensorSky::halve_gaps() {
-  const std::size_t count = slice_.size();
-  std::vector<double> error(count);
+void SensorSky::fill_gaps() {
+  const std::size_t count = entry_.size();
+  std::vector<double> variance(count);
+  for (std::size_t i = 0; i < count; ++i) variance[i] = gap_variance(i);
+  const double worst = *std::max_element(variance.begin(), variance.end());
+  std::vector<Entry> refined;
+  refined.reserve(count + count / 2);
+  is_filled_ = true;
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t next = (i + 1) % count;
-    error[i] = std::sqrt(gap_sum(i, slopes_at(i), slopes_at(next)).variance +
-                         0.5 * (misfit_variance(i) + misfit_variance(next)));
+    refined.push_back(entry_[i]);
+    if (variance[i] <= square(kWorthFilling) * worst) continue;
+    const double width = width_after(i), random = 0.3 + 0.4 * random_.uniform();
+    const GapLight& gap = entry_[i].gap;
+    const bool has_hole = gap.hole_width > kLeastHole * width && !gap.is_blind;
+    const double offset = has_hole ? gap.hole_begin + random * gap.hole_width : random * width;
+    refined.emplace_back();
+    refined.back().slice = make_slice(at(i).azimuth + offset, 0, 0.0);
   }
-  const double worst = *std::max_element(error.begin(), error.end());
-  std::vector<Slice> refined;
-  refined.reserve(count + count / 4);
-  surprise_variance_ = 0.0;
-  ++halvings_;
-  for (std::size_t i = 0; i < count; ++i) {
-    refined.push_back(slice_[i]);
-    const bool is_worst = error[i] > kWorthHalving * worst;
-    const bool is_look = (i + halvings_) % kLookInto == 0;
-    if (!is_worst && !is_look) continue;
-    const double width = width_after(i);
-    const Slice middle =
-        make_slice(slice_[i].azimuth + width * (0.4 + 0.2 * random_.uniform()), 0, 0.0);
-    const bool expected_smooth = gap_between(at(i), at(i + 1)) != Gap::Step;
-    if (expected_smooth &&
-        (gap_between(at(i), middle) == Gap::Step || gap_between(middle, at(i + 1)) == Gap::Step)) {
-      surprise_variance_ += square(width * (middle.lux - 0.5 * (at(i).lux + at(i + 1).lux)));
-    }
-    refined.push_back(middle);
-  }
-  slice_ = std::move(refined);
-}
-
-/// Whether one outline goes on into the other, also from one object to the next.
-bool SensorSky::touch(OutlineEdge a, OutlineEdge b) const {
-  if (a.touches(b)) return true;
-  if (a.a == MeshAdjacency::kNone || b.a == MeshAdjacency::kNone) return false;
-  const auto& v = rays_.soup().vertices;
-  return v[a.a] == v[b.a] || v[a.a] == v[b.b] || v[a.b] == v[b.a] || v[a.b] == v[b.b];
-}
-
-SensorSky::Gap SensorSky::gap_between(const Slice& a, const Slice& b) const {
-  // A sensor that looks level sees along its own surface there: its light sets in like a sine.
-  if (a.is_behind != b.is_behind) return Gap::Kink;
-  if (a.ranges != b.ranges || a.ranges > 1) return Gap::Step;
-  if (a.low_edge == b.low_edge && a.high_edge == b.high_edge) return Gap::Smooth;
-  return touch(a.low_edge, b.low_edge) && touch(a.high_edge, b.high_edge) ? Gap::Kink : Gap::Step;
-}
-
-/// Few steps, none next to another: then the slices show all there is, as far as they can tell.
-bool SensorSky::is_resolved() {
-  std::size_t steps = 0, crowded = 0;
-  seeing_ = 0;
-  bool before = gap_between(at(slice_.size() - 1), at(0)) == Gap::Step;
-  for (std::size_t i = 0; i < slice_.size(); ++i) {
-    const bool step = gap_between(at(i), at(i + 1)) == Gap::Step;
-    steps += step;
-    crowded += step && before;
-    seeing_ += slice_[i].ranges > 0;
-    before = step;
-  }
-  return slices() >= kFewestToHalve && crowded == 0 && 4 * steps <= slice_.size() &&
-         seeing_ >= kSeeing;
+  entry_ = std::move(refined);
 }
 
 /// Whether the checks have nothing more to tell: slices of halved gaps are not checked.
 bool SensorSky::has_sure_claims() const {
   constexpr double kSure = 1e-4;  // of the value
-  return checks_.lux_squared <= square(kSure * lux_) && (table_ != nullptr || checks_.view == 0.0);
+  return checks_.lux_squared <= square(kSure * lux_) &&
+         (sight_.table != nullptr || checks_.view == 0.0);
 }
 
 double SensorSky::width_after(std::size_t i) const {
-  const double width = at(i + 1).azimuth - slice_[i].azimuth;
-  return i + 1 < slice_.size() ? width : width + 2.0 * kPi;
+  const double width = at(i + 1).azimuth - at(i).azimuth;
+  return i + 1 < entry_.size() ? width : width + 2.0 * kPi;
 }
 
-/// A parabola through three slices, or a line through two, all on smooth sides.
-SensorSky::Slopes SensorSky::slopes_at(std::size_t i) const {
-  const std::size_t count = slice_.size(), before = (i + count - 1) % count;
-  const bool left = is_smooth_after(before), right = is_smooth_after(i);
-  if (!left && !right) return {};
-  const auto rise = [&](std::size_t k) {  // slopes of the chord of a gap
-    const double width = width_after(k % count);
-    const Slice &a = at(k), &b = at(k + 1);
-    return Slopes{(b.lux - a.lux) / width, (b.view - a.view) / width, true};
-  };
-  const auto mix = [](double p, Slopes a, Slopes b) {
-    return Slopes{p * a.lux + (1.0 - p) * b.lux, p * a.view + (1.0 - p) * b.view, true};
-  };
-  if (left && right) {
-    const double wl = width_after(before), wr = width_after(i);
-    return mix(wr / (wl + wr), rise(before), rise(i));
+SensorSky::GapLight SensorSky::gap_light(std::size_t i, double negligible_lux) {
+  const OutlineGap gap(at(i), at(i + 1), width_after(i), sight_);
+  GapLight result;
+  result.known = gap.known(negligible_lux);
+  pane_rays_ += gap.rays_sent();
+  result.hole_width = gap.hole();
+  if (!(result.hole_width > 0.0)) return result;
+  result.hole_begin = gap.hole_begin().offset;
+  result.hole = gap.hole_light();
+  result.is_blind = !gap.is_between_outlines();
+  if (!result.is_blind) {
+    const Bearing middle = middle_of(gap.hole_begin(), gap.hole_end());
+    result.room = gap.hole() * gap.open_at(middle) - result.hole;
   }
-  const std::size_t near = right ? i : before;
-  const std::size_t next = right ? (i + 1) % count : (i + count - 2) % count;
-  if (!is_smooth_after(next)) return rise(near);
-  const double wn = width_after(near), wf = width_after(next);
-  return mix(1.0 + wn / (wn + wf), rise(near), rise(next));
+  return result;
 }
 
-double SensorSky::misfit_at(std::size_t i) const {
-  const std::size_t count = slice_.size();
-  if (count < 5) return 0.0;
-  std::array<double, 4> x{}, y{};
-  std::size_t points = 0;
-  const auto take = [&](std::size_t k, double distance) {
-    x[points] = distance;
-    y[points++] = at(k).lux;
-  };
-  const std::size_t b1 = (i + count - 1) % count, b2 = (i + count - 2) % count;
-  if (!is_smooth_after(b1) || !is_smooth_after(i)) return 0.0;
-  take(b1, -width_after(b1));
-  if (is_smooth_after(b2)) take(b2, -width_after(b1) - width_after(b2));
-  take(i + 1, width_after(i));
-  if (is_smooth_after((i + 1) % count)) take(i + 2, width_after(i) + width_after((i + 1) % count));
-  double expected = 0.0;  // Lagrange's polynomial at distance 0
-  for (std::size_t k = 0; k < points; ++k) {
-    double weight = 1.0;
-    for (std::size_t m = 0; m < points; ++m) {
-      if (m != k) weight *= x[m] / (x[m] - x[k]);
+SensorSky::Test SensorSky::test_of(std::size_t i) {
+  const double left = width_after(before(i)), right = width_after(i);
+  const OutlineGap without(at(before(i)), at(i + 1), left + right, sight_);
+  const Bearing here{left, at(i).along};
+  const LuxAndView foretold = without.at(here);
+  pane_rays_ += without.rays_sent();
+  Test test;
+  test.kind = Test::Kind::Known;
+  test.miss = at(i).light - foretold;
+  if (!without.is_in_hole(left)) return test;
+  test.kind = without.is_between_outlines() ? Test::Kind::Hole : Test::Kind::Blind;
+  test.room = without.open_at(here).lux - foretold.lux;
+  return test;
+}
+
+void SensorSky::learn(double about_lux) {
+  const std::size_t count = entry_.size();
+  const double negligible = kNegligible * about_lux / static_cast<double>(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    Entry &here = entry_[i], &next = entry_[(i + 1) % count];
+    if (here.is_new || next.is_new) here.gap = gap_light(i, negligible);
+    if (here.is_new || next.is_new || entry_[before(i)].is_new) here.test = test_of(i);
+  }
+  for (Entry& entry : entry_) entry.is_new = false;
+  lesson_ = {};
+  const double prior = kPriorTests * 2.0 * kPi / static_cast<double>(count);
+  double known = 0.0, room = 0.0, filled = 0.0, room_squared = 0.0;
+  double missed = 0.0, missed_squared = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Test& test = entry_[i].test;
+    // A slice close to its neighbour tells less of a wide gap.
+    const double width = std::min(width_after(before(i)), width_after(i));
+    if (test.kind == Test::Kind::Hole) {
+      room += test.room;
+      filled += test.miss.lux;
+      room_squared += square(test.room);
     }
-    expected += weight * y[k];
+    if (test.kind != Test::Kind::Known) continue;
+    const double bend = at(i).light.lux - 0.5 * (at(before(i)).light.lux + at(i + 1).light.lux);
+    ++lesson_.known;
+    known += width;
+    lesson_.miss = lesson_.miss + width * test.miss;
+    lesson_.miss_squared += width * square(test.miss.lux);
+    missed += std::abs(width * test.miss.lux);
+    missed_squared += square(width * test.miss.lux);
+    lesson_.bend_squared += width * square(bend);
   }
-  return at(i).lux - expected;
-}
-
-double SensorSky::misfit_variance(std::size_t i) const {
-  const double width =
-      0.5 * (width_after(i) + width_after((i + slice_.size() - 1) % slice_.size()));
-  return square(width * misfit_at(i)) / 120.0;
-}
-
-SensorSky::GapSum SensorSky::gap_sum(std::size_t i, const Slopes& before,
-                                     const Slopes& after) const {
-  const Slice &here = at(i), &next = at(i + 1);
-  const Gap gap = gap_between(here, next);
-  const double width = width_after(i), bend = square(width) * (after.lux - before.lux);
-  GapSum sum{0.5 * width * (here.lux + next.lux), 0.5 * width * (here.view + next.view), 0.0};
-  if (!before.known || !after.known) {
-    // Nothing tells how either side goes on.
-    sum.variance = square(width * (next.lux - here.lux)) / 12.0;
-    return sum;
+  // Misses as many as count: one or two of them tell of steps that are known by now.
+  const double misses = missed_squared > 0.0 ? square(missed) / missed_squared : 0.0;
+  lesson_.evidence = misses / (misses + kDoubt);
+  lesson_.bend_squared /= std::max(known, prior);
+  known += prior;
+  lesson_.miss = (1.0 / known) * lesson_.miss;
+  lesson_.miss_squared += prior * square(kPriorMiss * about_lux / (2.0 * kPi));
+  lesson_.miss_squared /= known;
+  // The share of holes: a ratio of sums, with two tests' worth of what is usual beforehand.
+  const double typical = room > 0.0 ? room_squared / room : 1.0;
+  lesson_.share = (filled + 2.0 * kPriorShare * typical) / (room + 2.0 * typical);
+  double scatter = 2.0 * square(typical) / 12.0;
+  for (const Entry& entry : entry_) {
+    if (entry.test.kind != Test::Kind::Hole) continue;
+    scatter += square(entry.test.miss.lux - lesson_.share * entry.test.room);
   }
-  const double share = gap == Gap::Step ? 1.0 / 6.0 : 1.0 / 12.0;
-  sum.lux -= share * bend;
-  sum.view -= share * square(width) * (after.view - before.view);
-  const double height = next.lux - here.lux - 0.5 * width * (before.lux + after.lux);
-  if (gap == Gap::Step) sum.variance = square(width * height) / 12.0 + square(bend / 12.0);
-  if (gap == Gap::Kink) sum.variance = square(bend) / 720.0;
-  return sum;
+  lesson_.share_variance = scatter / (room_squared + 2.0 * square(typical));
+  lesson_.share_error = scatter / square(room + 2.0 * typical);
 }
 
-SensorSky::Slice SensorSky::make_slice(double azimuth_rad, int checks, double weight) {
-  Work work;
-  const double sine = std::sin(azimuth_rad), cosine = std::cos(azimuth_rad);
-  work.along = normal_.x * sine + normal_.y * cosine;
-  work.up = normal_.z;
-  work.front = front_range(work.along, work.up);
-  Slice slice;
+/// Of the light in a gap, by what is not known of it.
+double SensorSky::gap_variance(std::size_t i) const {
+  const GapLight& gap = entry_[i].gap;
+  const double width = width_after(i);
+  if (!at(i).is_open && !at(i + 1).is_open) return 0.0;
+  const auto miss_squared = [&](const Entry& entry) {
+    return entry.test.kind == Test::Kind::Hole
+               ? lesson_.miss_squared
+               : std::max(lesson_.miss_squared, square(entry.test.miss.lux));
+  };
+  const double known = gap.is_blind ? width : width - gap.hole_width;
+  return lesson_.share_variance * square(gap.room.lux) +
+         square(known) / 6.0 *
+             (miss_squared(entry_[i]) + miss_squared(entry_[(i + 1) % entry_.size()]));
+}
+
+SkySlice SensorSky::make_slice(double azimuth_rad, int checks, double weight) {
+  SkySlice slice;
   slice.azimuth = azimuth_rad;
-  slice.ranges = 1;
-  slice.is_behind = !(work.front.low < work.front.high);
+  slice.along = {std::sin(azimuth_rad), std::cos(azimuth_rad), 0.0};
+  const SliceLight light(sight_.table, sight_.normal, azimuth_rad, slice.along);
+  const auto [low, high] = light.front();
+  slice.is_behind = !(low < high);
   if (slice.is_behind) return slice;
-  if (table_ != nullptr) work.column = table_->column(azimuth_rad);
-  work.visible = tracer_.trace({sine, cosine, 0.0}, work.front.low, work.front.high);
-  claim(work);
-  slice.low_edge = work.visible.low_edge;
-  slice.high_edge = work.visible.high_edge;
-  slice.ranges = work.visible.count;
-  for (const auto& [range, transmittance] : piece_) {
-    slice.lux += transmittance * work.lux(range.low, range.high);
-    slice.view += transmittance * work.view(range.low, range.high);
+  const VisibleSlice visible = tracer_.trace(slice.along, low, high);
+  slice.is_open = visible.count > 0;
+  piece_.clear();
+  for (int i = 0; i < visible.count; ++i) {
+    const AltitudeRange range = visible.range[static_cast<std::size_t>(i)];
+    pane_rays_ += static_cast<std::uint64_t>(
+        append_pieces(sight_, slice.along, range.low, range.high, piece_));
   }
-  if (checks > 0) check(work, checks, weight);
+  for (const SeenPiece& p : piece_) {
+    slice.light = slice.light + p.transmittance * light.both(p.low, p.high);
+  }
+  bound(slice, visible, low, high);
+  if (checks > 0) check(light, checks, weight);
   return slice;
 }
 
-void SensorSky::claim(Work& work) {
-  piece_.clear();
-  for (int i = 0; i < work.visible.count; ++i) {
-    const AltitudeRange whole = work.visible.range[static_cast<std::size_t>(i)];
-    if (!rays_.has_glass()) {
-      piece_.push_back({whole, 1.0});
-      continue;
-    }
-    const int parts = std::max(1, static_cast<int>(std::ceil((whole.high - whole.low) / kPiece)));
-    const double step = (whole.high - whole.low) / parts;
-    for (int k = 0; k < parts; ++k) {
-      const AltitudeRange part{whole.low + k * step, whole.low + (k + 1) * step};
-      piece_.push_back({part, tracer_.glass_transmission(0.5 * (part.low + part.high))});
-    }
-  }
+/// Takes the outlines over, if they are what bounds the visible range.
+void SensorSky::bound(SkySlice& slice, const VisibleSlice& visible, double low, double high) const {
+  if (visible.count != 1) return;
+  const auto segment = [&](OutlineEdge edge) {
+    if (edge.a == MeshAdjacency::kNone) return OutlineSegment();
+    const auto& vertex = sight_.rays.soup().vertices;
+    return OutlineSegment(vertex[edge.a] - sight_.origin, vertex[edge.b] - sight_.origin);
+  };
+  const auto stands_at = [&](const OutlineSegment& edge, double otherwise, double found) {
+    const double altitude = edge.exists() ? std::atan(edge.slope(slice.along)) : otherwise;
+    return std::abs(altitude - found) < kSameAltitude;
+  };
+  slice.low = segment(visible.low_edge);
+  slice.high = segment(visible.high_edge);
+  slice.is_outlined = stands_at(slice.low, low, visible.range[0].low) &&
+                      stands_at(slice.high, high, visible.range[0].high);
 }
 
-void SensorSky::check(const Work& work, int checks, double weight) {
-  const auto [low, high] = work.front;
-  const double whole = work.measure(low, high);
+void SensorSky::check(const SliceLight& light, int checks, double weight) {
+  const auto [low, high] = light.front();
+  const double whole = light.measure(low, high);
   if (!(whole > 0.0)) return;
-  double lux = 0.0, view = 0.0;
+  LuxAndView sum;
   for (int k = 0; k < checks; ++k) {
     // A row of the table in proportion to its light, then any altitude in it alike.
     const double wanted = whole * (k + random_.uniform()) / checks;
-    const auto [a, b] = work.row_reaching(wanted, low, high);
+    const auto [a, b] = light.row_reaching(wanted, low, high);
     const double altitude = a + (b - a) * random_.uniform();
-    const double chance = work.measure(a, b) / whole;
+    const double chance = light.measure(a, b) / whole;
     if (!(chance > 0.0)) continue;
     double claimed = 0.0;
-    for (const auto& [range, transmittance] : piece_) {
-      if (altitude >= range.low && altitude <= range.high) claimed = transmittance;
+    for (const SeenPiece& p : piece_) {
+      if (altitude >= p.low && altitude <= p.high) claimed = p.transmittance;
     }
-    double truth = tracer_.check(altitude, claimed > 0.0) ? 1.0 : 0.0;
-    if (truth > 0.0 && rays_.has_glass()) truth = tracer_.glass_transmission(altitude);
-    const double missed = truth - claimed;
-    if (missed == 0.0) continue;
-    lux += missed * work.lux(a, b) / chance;
-    view += missed * work.view(a, b) / chance;
+    const bool visible = tracer_.check(altitude, claimed > 0.0);
+    if (visible == (claimed > 0.0)) continue;
+    const double missed = visible ? tracer_.glass_transmission(altitude) : -claimed;
+    sum = sum + (missed / chance) * light.both(a, b);
   }
-  lux *= weight / checks;
-  checks_.lux += lux;
-  checks_.view += view * weight / checks;
-  checks_.lux_squared += square(lux);
+  sum = (weight / checks) * sum;
+  checks_.lux += sum.lux;
+  checks_.view += sum.view;
+  checks_.lux_squared += square(sum.lux);
 }
 
 SensorSky::Sum SensorSky::even_sum() const {
-  const std::size_t count = slice_.size();
-  const double pitch = 2.0 * kPi / static_cast<double>(count);
+  const double pitch = 2.0 * kPi / static_cast<double>(entry_.size());
+  const auto goes_on = [](const SkySlice& a, const SkySlice& b) {
+    return a.is_outlined && b.is_outlined && a.low.touches(b.low) && a.high.touches(b.high);
+  };
   Sum sum;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Slice &before = at(i + count - 1), &here = slice_[i], &after = at(i + 1);
-    sum.lux += pitch * here.lux;
-    sum.view += pitch * here.view;
-    const double bend = here.lux - 0.5 * (before.lux + after.lux);
-    if (gap_between(before, here) == Gap::Step || gap_between(here, after) == Gap::Step) {
+  for (std::size_t i = 0; i < entry_.size(); ++i) {
+    const SkySlice &left = at(before(i)), &here = at(i), &right = at(i + 1);
+    sum.light = sum.light + pitch * here.light;
+    const double bend = here.light.lux - 0.5 * (left.light.lux + right.light.lux);
+    if (!goes_on(left, here) || !goes_on(here, right)) {
       sum.variance += square(pitch * bend) * (1.0 / 6.0 + kScatter / (3.0 * pitch));
       continue;
     }
-    // A kink of slope change c gives sum(bend^2) = (wc)^2 / 6 and a variance of w^4 c^2 / 720.
-    const double rise = 0.5 * (after.lux - before.lux) / pitch;
+    const double rise = 0.5 * (right.light.lux - left.light.lux) / pitch;
     sum.variance += square(pitch) * (square(bend) / 120.0 + square(rise * kScatter) / 12.0);
   }
   return sum;
 }
 
-SensorSky::Sum SensorSky::halved_sum() const {
-  Sum sum;
-  Slopes before = slopes_at(0);
-  const Slopes first = before;
-  for (std::size_t i = 0; i < slice_.size(); ++i) {
-    const Slopes after = i + 1 < slice_.size() ? slopes_at(i + 1) : first;
-    const GapSum gap = gap_sum(i, before, after);
-    sum.lux += gap.lux;
-    sum.view += gap.view;
-    sum.variance += gap.variance + misfit_variance(i);
-    before = after;
+/// Whether outlines foretell much better than the mean of the neighbours, or what they leave open
+/// lies in few places.
+bool SensorSky::outlines_tell() const {
+  if (lesson_.known >= kTests && lesson_.miss_squared <= kMuchBetter * lesson_.bend_squared) {
+    return true;
   }
-  sum.variance += surprise_variance_;
+  double sum = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < entry_.size(); ++i) {
+    sum += gap_variance(i);
+    squares += square(gap_variance(i));
+  }
+  return slices() >= kFewest && square(sum) <= kFewPlaces * squares * slices();
+}
+
+SensorSky::Sum SensorSky::outlined_sum() const {
+  Sum sum;
+  double room = 0.0, known = 0.0;
+  for (std::size_t i = 0; i < entry_.size(); ++i) {
+    const GapLight& gap = entry_[i].gap;
+    sum.light = sum.light + gap.known + gap.hole + lesson_.share * gap.room;
+    room += gap.room.lux;
+    known += gap.is_blind ? 0.0 : width_after(i) - gap.hole_width;
+    sum.variance += gap_variance(i);
+  }
+  const LuxAndView missed = (known * kMissed) * lesson_.miss;
+  sum.light = sum.light + lesson_.evidence * missed;
+  sum.variance +=
+      (square(1.0 - lesson_.evidence) + square(0.35 * lesson_.evidence)) * square(missed.lux);
+  sum.variance += lesson_.share_error * square(room) + square(kTable * sum.light.lux);
   return sum;
 }
 
 void SensorSky::summarise() {
-  const Sum sum = resolved_ ? halved_sum() : even_sum();
-  lux_ = sum.lux + checks_.lux;
-  sky_view_ = std::clamp(sum.view + checks_.view, 0.0, 1.0);
+  seeing_ = static_cast<int>(
+      std::count_if(entry_.begin(), entry_.end(), [](const Entry& e) { return e.slice.is_open; }));
+  Sum sum;
+  if (!is_outlined_) sum = even_sum();
+  if (effort_.outlined && seeing_ >= kSeeing) {
+    learn(is_outlined_ ? lux_ : sum.light.lux);
+    is_outlined_ = is_outlined_ || outlines_tell();
+  }
+  if (is_outlined_) sum = outlined_sum();
+  lux_ = sum.light.lux + checks_.lux;
+  sky_view_ = std::clamp(sum.light.view + checks_.view, 0.0, 1.0);
   variance_ = sum.variance + checks_.lux_squared;
 }
 

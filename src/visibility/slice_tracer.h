@@ -66,6 +66,9 @@ class SliceTracer {
   /// Product of the transmittances of the panes at `altitude`, in the azimuth last traced.
   double glass_transmission(double altitude_rad);
 
+  /// Floating things that checks have met so far.
+  int floating() const { return floating_count_; }
+
   std::uint64_t rays_sent() const { return rays_sent_; }
 
  private:
