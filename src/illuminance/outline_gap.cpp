@@ -7,6 +7,8 @@ namespace tenku {
 namespace {
 
 constexpr int kMostHalvings = 6;
+constexpr double kMostBend = 1e-4;  // radians of altitude times radians of azimuth
+constexpr double kNarrow = 0.01;    // radians of azimuth for which one half-plane stands
 constexpr int kCrossingSteps = 3;
 constexpr double kPiece = 0.05;                 // radians of altitude for two angles through panes
 constexpr double kGauss = 0.28867513459481287;  // their places: two-point rule on a unit length
@@ -24,22 +26,6 @@ Bearing reach_before(const SkySlice& right, const Bearing& from, const Bearing& 
   if (right.low.exists()) reach = right.low.end_before(from, reach);
   if (right.high.exists()) reach = right.high.end_before(from, reach);
   return reach;
-}
-
-/// Arc tangent; error below 2e-8.
-///
-/// Source   M. Abramowitz, I. Stegun, "Handbook of Mathematical Functions", 4.4.49.
-double arc_tangent(double x) {
-  const double size = std::abs(x);
-  const bool steep = size > 1.0;
-  const double t = steep ? 1.0 / size : size, u = t * t;
-  double sum = 0.0028662257;
-  for (const double coefficient : {-0.0161657367, 0.0429096138, -0.0752896400, 0.1065626393,
-                                   -0.1420889944, 0.1999355085, -0.3333314528, 1.0}) {
-    sum = sum * u + coefficient;
-  }
-  const double angle = steep ? kPi / 2.0 - t * sum : t * sum;
-  return x < 0.0 ? -angle : angle;
 }
 
 }  // namespace
@@ -83,23 +69,37 @@ OutlineGap::OutlineGap(const SkySlice& left, const SkySlice& right, double width
   if (right_objects) left_reach_ = begin;
 }
 
+OutlineGap::Range OutlineGap::range_at(const SliceLight& light, Vec3 along, Sides sides) const {
+  Range range{light.low(), light.high()};
+  const auto bound = [&](const SkySlice& side) {
+    if (side.low.exists()) {
+      const Altitude low = Altitude::of_slope(side.low.slope(along));
+      if (low.sine > range.low.sine) range.low = low;
+    }
+    if (side.high.exists()) {
+      const Altitude high = Altitude::of_slope(side.high.slope(along));
+      if (high.sine < range.high.sine) range.high = high;
+    }
+  };
+  if (sides.left) bound(left_);
+  if (sides.right) bound(right_);
+  return range;
+}
+
 LuxAndView OutlineGap::seen(const Bearing& bearing, Sides sides) const {
   if ((sides.left && !left_.is_open) || (sides.right && !right_.is_open)) return {};
   const SliceLight light(sight_.table, sight_.normal, left_.azimuth + bearing.offset,
                          bearing.along);
-  auto [low, high] = light.front();
-  const auto bound = [&](const SkySlice& side) {
-    if (side.low.exists()) low = std::max(low, arc_tangent(side.low.slope(bearing.along)));
-    if (side.high.exists()) high = std::min(high, arc_tangent(side.high.slope(bearing.along)));
-  };
-  if (sides.left) bound(left_);
-  if (sides.right) bound(right_);
-  if (!(low < high)) return {};
+  const auto [low, high] = range_at(light, bearing.along, sides);
+  if (!(low.sine < high.sine)) return {};
   if (!sight_.rays.has_glass()) return light.both(low, high);
   std::vector<SeenPiece> pieces;
-  rays_sent_ += static_cast<std::uint64_t>(append_pieces(sight_, bearing.along, low, high, pieces));
+  rays_sent_ += static_cast<std::uint64_t>(
+      append_pieces(sight_, bearing.along, low.radians, high.radians, pieces));
   LuxAndView sum;
-  for (const SeenPiece& p : pieces) sum = sum + p.transmittance * light.both(p.low, p.high);
+  for (const SeenPiece& p : pieces) {
+    sum = sum + p.transmittance * light.both(Altitude::of(p.low), Altitude::of(p.high));
+  }
   return sum;
 }
 
@@ -148,39 +148,46 @@ Bearing OutlineGap::crossing(Bearing from, Bearing to) const {
   return at;
 }
 
-LuxAndView OutlineGap::known(double negligible_lux) const {
+LuxAndView OutlineGap::known() const {
   const bool overlap = right_reach_.offset < left_reach_.offset;
   const Bearing& first = overlap ? right_reach_ : left_reach_;
   const Bearing& last = overlap ? left_reach_ : right_reach_;
-  LuxAndView sum = sum_between({true, false}, {0.0, left_.along}, first, negligible_lux) +
-                   sum_between({false, true}, last, {width_, right_.along}, negligible_lux);
+  LuxAndView sum = sum_between({true, false}, {0.0, left_.along}, first, kMostHalvings) +
+                   sum_between({false, true}, last, {width_, right_.along}, kMostHalvings);
   if (!overlap) return sum;
   const Bearing middle = crossing(first, last);
-  return sum + sum_between({true, true}, first, middle, negligible_lux) +
-         sum_between({true, true}, middle, last, negligible_lux);
+  return sum + sum_between({true, true}, first, middle, kMostHalvings) +
+         sum_between({true, true}, middle, last, kMostHalvings);
+}
+
+double OutlineGap::bend(const Bearing& from, const Bearing& middle, const Bearing& to,
+                        Sides sides) const {
+  double most = 0.0;
+  const auto add = [&](const OutlineSegment& edge) {
+    if (!edge.exists()) return;
+    const double here = edge.slope(middle.along);
+    const double ends = edge.slope(from.along) + edge.slope(to.along);
+    most = std::max(most, std::abs(0.5 * ends - here) / (1.0 + here * here));
+  };
+  if (sides.left) add(left_.low), add(left_.high);
+  if (sides.right) add(right_.low), add(right_.high);
+  return most;
 }
 
 LuxAndView OutlineGap::sum_between(Sides sides, const Bearing& from, const Bearing& to,
-                                   double negligible_lux) const {
-  if (!(from.offset < to.offset)) return {};
-  const auto node = [&](const Bearing& b) {
-    if (b.offset == 0.0 && sides.left) return Node{b, left_.light};
-    if (b.offset == width_ && sides.right) return Node{b, right_.light};
-    return Node{b, seen(b, sides)};
+                                   int depth) const {
+  const double width = to.offset - from.offset;
+  if (!(width > 0.0)) return {};
+  const Bearing middle = middle_of(from, to);
+  if (depth > 0 && bend(from, middle, to, sides) * width > kMostBend) {
+    return sum_between(sides, from, middle, depth - 1) + sum_between(sides, middle, to, depth - 1);
+  }
+  if (width < kNarrow) return width * seen(middle, sides);
+  const auto node = [&](double share) {
+    return Bearing{from.offset + share * width,
+                   normalized((1.0 - share) * from.along + share * to.along)};
   };
-  return simpson(sides, node(from), node(to), negligible_lux, kMostHalvings);
-}
-
-LuxAndView OutlineGap::simpson(Sides sides, const Node& a, const Node& b, double negligible_lux,
-                               int depth) const {
-  const double width = b.bearing.offset - a.bearing.offset;
-  const Bearing middle = middle_of(a.bearing, b.bearing);
-  const Node m{middle, seen(middle, sides)};
-  const LuxAndView trapezoid = (0.5 * width) * (a.light + b.light);
-  const LuxAndView sum = (width / 6.0) * (a.light + 4.0 * m.light + b.light);
-  if (depth == 0 || std::abs(sum.lux - trapezoid.lux) <= negligible_lux) return sum;
-  return simpson(sides, a, m, 0.5 * negligible_lux, depth - 1) +
-         simpson(sides, m, b, 0.5 * negligible_lux, depth - 1);
+  return (0.5 * width) * (seen(node(0.5 - kGauss), sides) + seen(node(0.5 + kGauss), sides));
 }
 
 }  // namespace tenku

@@ -70,9 +70,9 @@ class OutlineGap {
   LuxAndView at(const Bearing& bearing) const;
   /// Light per radian of the unobstructed sky.
   LuxAndView open_at(const Bearing& bearing) const;
-  /// Light of the gap outside its hole: by Simpson's rule, halved until it differs from the
-  /// trapezoidal rule by no more than `negligible_lux`.
-  LuxAndView known(double negligible_lux) const;
+  /// Light of the gap outside its hole: by the two-point Gauss rule on parts over which the
+  /// outlines bend little.
+  LuxAndView known() const;
   /// Light of the hole, on the line from its beginning to its end.
   LuxAndView hole_light() const { return (0.5 * hole()) * (left_end() + right_end()); }
   /// Rays through panes so far.
@@ -83,9 +83,9 @@ class OutlineGap {
   struct Sides {
     bool left, right;
   };
-  struct Node {
-    Bearing bearing;
-    LuxAndView light;
+  /// The visible range in one half-plane.
+  struct Range {
+    Altitude low, high;
   };
 
   LuxAndView left_end() const;   ///< where the hole begins
@@ -93,10 +93,10 @@ class OutlineGap {
   LuxAndView seen(const Bearing& bearing, Sides sides) const;
   /// Where the edges of both sides are equally high, between two bearings; the second if nowhere.
   Bearing crossing(Bearing from, Bearing to) const;
-  LuxAndView sum_between(Sides sides, const Bearing& from, const Bearing& to,
-                         double negligible_lux) const;
-  LuxAndView simpson(Sides sides, const Node& a, const Node& b, double negligible_lux,
-                     int depth) const;
+  Range range_at(const SliceLight& light, Vec3 along, Sides sides) const;
+  /// How far the outlines bend between two bearings, radians.
+  double bend(const Bearing& from, const Bearing& middle, const Bearing& to, Sides sides) const;
+  LuxAndView sum_between(Sides sides, const Bearing& from, const Bearing& to, int depth) const;
 
   const SkySlice &left_, &right_;
   double width_;

@@ -10,7 +10,6 @@ constexpr int kRareCheck = 4;           // one slice in so many is checked while
 constexpr int kDenseChecks = 4;         // rays a checked slice, where the checks dominate the error
 constexpr int kMostAgain = 3;           // times that all slices are traced again
 constexpr double kSameAltitude = 1e-3;  // radians
-constexpr double kNegligible = 1e-3;    // of the value, between two rules of integration
 
 // When outlines are believed.
 constexpr int kTests = 4;            // that they must have stood
@@ -122,10 +121,10 @@ double SensorSky::width_after(std::size_t i) const {
   return i + 1 < entry_.size() ? width : width + 2.0 * kPi;
 }
 
-SensorSky::GapLight SensorSky::gap_light(std::size_t i, double negligible_lux) {
+SensorSky::GapLight SensorSky::gap_light(std::size_t i) {
   const OutlineGap gap(at(i), at(i + 1), width_after(i), sight_);
   GapLight result;
-  result.known = gap.known(negligible_lux);
+  result.known = gap.known();
   pane_rays_ += gap.rays_sent();
   result.hole_width = gap.hole();
   if (!(result.hole_width > 0.0)) return result;
@@ -156,10 +155,9 @@ SensorSky::Test SensorSky::test_of(std::size_t i) {
 
 void SensorSky::learn(double about_lux) {
   const std::size_t count = entry_.size();
-  const double negligible = kNegligible * about_lux / static_cast<double>(count);
   for (std::size_t i = 0; i < count; ++i) {
     Entry &here = entry_[i], &next = entry_[(i + 1) % count];
-    if (here.is_new || next.is_new) here.gap = gap_light(i, negligible);
+    if (here.is_new || next.is_new) here.gap = gap_light(i);
     if (here.is_new || next.is_new || entry_[before(i)].is_new) here.test = test_of(i);
   }
   for (Entry& entry : entry_) entry.is_new = false;
@@ -348,7 +346,7 @@ void SensorSky::summarise() {
       std::count_if(entry_.begin(), entry_.end(), [](const Entry& e) { return e.slice.is_open; }));
   Sum sum;
   if (!is_outlined_) sum = even_sum();
-  if (effort_.outlined && seeing_ >= kSeeing) {
+  if (effort_.outlined && seeing_ >= kSeeing && slices() >= kFewest) {
     learn(is_outlined_ ? lux_ : sum.light.lux);
     is_outlined_ = is_outlined_ || outlines_tell();
   }

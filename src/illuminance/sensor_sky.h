@@ -130,9 +130,9 @@ class SensorSky {
   const SkySlice& at(std::size_t i) const { return entry_[i % entry_.size()].slice; }
   std::size_t before(std::size_t i) const { return (i + entry_.size() - 1) % entry_.size(); }
   double width_after(std::size_t i) const;
-  GapLight gap_light(std::size_t i, double negligible_lux);
+  GapLight gap_light(std::size_t i);
   Test test_of(std::size_t i);
-  /// @param about_lux  the value, roughly: what is far below it need not be summed finely
+  /// @param about_lux  the value, roughly
   void learn(double about_lux);
   double gap_variance(std::size_t i) const;
 

@@ -140,9 +140,4 @@ FrontRange front_range(double normal_along, double normal_up) {
   return {0.0, normal_up == 0.0 ? kHalfPi : std::atan(normal_along / -normal_up)};
 }
 
-SliceMoments uniform_moments(double altitude_rad) {
-  const double s = std::sin(altitude_rad), c = std::cos(altitude_rad);
-  return {0.5 * (altitude_rad + s * c), 0.5 * s * s};
-}
-
 }  // namespace tenku

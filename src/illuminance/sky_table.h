@@ -72,7 +72,5 @@ struct FrontRange {
 };
 FrontRange front_range(double normal_along, double normal_up);
 
-/// Moments of a sky of luminance 1 in closed form.
-SliceMoments uniform_moments(double altitude_rad);
 
 }  // namespace tenku
