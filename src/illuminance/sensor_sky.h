@@ -16,32 +16,32 @@ namespace tenku {
 ///          even: slices at equal steps from a random start, doubled, each for itself. Unbiased,
 ///            whatever is too thin to be resolved (leaves, louvres);
 ///          outlined: between the slices the sky is summed above the edges that they have met
-///            (OutlineGap), as soon as that foretells the slices much better than the mean of their
-///            neighbours does. Then, once the checks have nothing more to tell, slices go
-///            where the foretelling failed, and some elsewhere.
+///            (OutlineGap), as soon as that foretells slices much better than the mean of their
+///            neighbours does, or leaves open only few places. Then, once the checks have nothing
+///            more to tell, slices go where most is unknown: into holes between outlines, beside
+///            slices that were not foretold, into wide gaps.
 ///
-/// Error    parts that are independent and added as variances. With w the mean width of the gaps
-///          beside a slice, r the difference of what it found from what its neighbours foretell
-///          without it:
-///          slices: variance w^2 r^2 / 6 each. Even: the neighbours' mean foretells; a step of
-///          height h
-///            at an unknown place gives sum(r^2) = h^2/2 and an error uniform in
-///            [-wh/2, wh/2]; to it each slice within the scatter s of the step adds its chance
-///            to lie on either side: w^2 r^2 (1/6 + s/3w). Outlined: a thing of width a and
-///            height h, unknown to the slices with probability 1 - a/w, is an error of ah; it
-///            has been met by a slice (and foretold by none, if a < 2w) with probability a/w. For
-///            widths spread evenly over 0..2w, the errors squared come to w^2 h^2 / 24 and r^2 to
-///            3 h^2 / 4, so that w^2 r^2 / 6 is three times what is needed: it leaves room for
-///            edges that are known but not how they go on;
-///          smooth, even: where neither side of a slice holds a step, kinks of slope change c
-///            give sum(r^2) = (wc)^2 / 6 and an error of variance w^4 c^2 / 720, that is w^2 r^2 /
-///            120;
-///          coherence, even: the first slices are odd in number, so that what recurs after 90 or
-///            180 degrees (courts; the horizon of a wall's own plane) lies in different parts of
-///            the gaps, and its errors cancel where they would add up;
-///          scatter, even: each azimuth is moved at random by up to +-kScatter/2, which gives
-///          smooth
-///            parts an error of known size;
+/// Error    parts that are independent and added as variances. A test is what a slice found less
+///          what its neighbours foretell without it. With w the width of a gap:
+///          even: with r the difference from the mean of the neighbours, a step of height h at an
+///            unknown place gives sum(r^2) = h^2/2 and an error uniform in [-wh/2, wh/2]; to it
+///            each slice within the scatter s of the step adds its chance to lie on either side:
+///            variance w^2 r^2 (1/6 + s/3w). Where outlines go on, kinks of slope change c
+///            give sum(r^2) = (wc)^2 / 6 and an error of variance w^4 c^2 / 720, that is w^2 r^2 / 120.
+///            The first slices are odd in number, so that what recurs after 90 or 180 degrees
+///            (courts; the horizon of a wall's own plane) lies in different parts of the gaps; each
+///            azimuth is moved at random by up to +-s/2, so that smooth parts err by a known size;
+///          holes: the sky in them lies a share p up from the line between their ends to the open
+///            sky. p and its scatter are learned from the slices that came to lie in holes;
+///          unknown things: one of width a and height h, met by no slice (probability 1 - a/w), is
+///            an error of ah; a slice met it and its neighbours did not foretell it (if a < 2w)
+///            with probability a/w. For widths spread evenly over 0..2w the errors squared
+///            come to w^2 h^2 / 24 and r^2 to 3 h^2 / 4. Taken is w^2 r^2 / 3, six times as much, as
+///            things much thinner than w need; r^2 the mean over all tests, or a gap's own
+///            where greater. kPriorTests imagined tests that failed stand in for those not made;
+///          what they take away: kMissed of the mean test (smooth change: 1/6, thin things: 1;
+///            measured in towns: 0.3 to 0.5), with a third of that as error, the less the
+///            fewer tests have failed;
 ///          tables: kTable of the value;
 ///          checks: rays at random altitudes measure what the slices missed.
 class SensorSky {

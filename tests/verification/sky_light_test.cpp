@@ -35,9 +35,7 @@ void expect_within(const std::vector<ReferenceCase>& cases, double tolerance_pct
       std::printf("[ BEYOND   ] %s: %.3g %% of %.3g\n", where.c_str(), error, one.ratio[i]);
     }
   }
-  // The budget is four standard errors, which leaves one in 16,000 beyond it; measured 1 in 200
-  // (deep streets seen along their axis, glass at grazing incidence).
-  EXPECT_LE(beyond, count / 100) << name;
+  EXPECT_EQ(beyond, 0U) << name;
 }
 
 TEST(SkyLight, OfStreetsCourtsAndBlocksIsThatOfTheClosedForms) {
@@ -62,7 +60,7 @@ TEST(SkyLight, SkyFactorBesideABoxIsThatOfTheClosedForm) {
       worst.add(result.values.sky_view[i] - one.ratio[i], one.name);
     }
   }
-  EXPECT_LE(worst.worst(), 5e-4);
+  EXPECT_LE(worst.worst(), 2.5e-4);
 }
 
 void measure_coverage(const std::vector<ReferenceCase>& cases, const std::string& name) {
@@ -80,9 +78,9 @@ void measure_coverage(const std::vector<ReferenceCase>& cases, const std::string
     }
     std::printf("[ MEASURED ] interval, %s, tolerance %g: holds %.1f %% of %zu\n", name.c_str(),
                 tolerance, coverage.pct(), coverage.count());
-    // 95 % is the aim; the streets and courts, the hardest of these, come to 91.6 at 0.5.
-    EXPECT_GE(coverage.pct(), 90.0) << name << " at " << tolerance;
-    EXPECT_LE(coverage.pct(), 99.0) << name << " at " << tolerance;
+    // No upper limit: once all outlines are met the value is exact, and the interval what a few
+    // tests could not rule out.
+    EXPECT_GE(coverage.pct(), 93.0) << name << " at " << tolerance;
   }
 }
 
