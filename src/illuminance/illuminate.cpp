@@ -188,7 +188,7 @@ void tell_missed(IlluminanceResult& result) {
   Finding finding;
   finding.code = "tolerance_not_reached";
   finding.what = "sensors met the limit of effort before the tolerance; error_lux tells how near";
-  finding.repair = "a higher tolerance, or take them as they are";
+  finding.repair = "a higher tolerance, more elements of a sky divided by hand, or take them so";
   finding.count = static_cast<std::size_t>(
       std::count(result.is_missed.begin(), result.is_missed.end(), std::uint8_t{1}));
   result.out_of_tolerance = finding.count;
