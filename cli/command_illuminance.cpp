@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "cli/command.h"
 #include "cli/lit_scene_options.h"
@@ -50,35 +49,31 @@ void check_request(const IlluminanceCommandOptions& options) {
   check_can_write(options.lit.out);
 }
 
-/// Sensors as the file gives them and in the local frame; a grid has a mesh too.
+/// Sensors in the coordinates of the scene file and in the local frame; a grid has a mesh too.
 struct Placed {
-  std::vector<Vec3> position, normal;  ///< in the coordinates of the scene file
-  Sensors sensors;
+  Sensors in_file, sensors;
   std::optional<SensorGrid> grid;
 };
 
 Placed place_sensors(const IlluminanceCommandOptions& options, const LitScene& lit) {
   Placed placed;
   if (!options.sensors.empty()) {
-    const SensorPoints points = read_sensor_file(options.sensors);
-    placed.position = points.position;
-    placed.normal = points.normal;
-    placed.sensors = lit.to_local({points.position, points.normal});
+    placed.in_file = read_sensor_file(options.sensors);
+    placed.sensors = lit.to_local(placed.in_file);
     return placed;
   }
   placed.grid = lit.grid(words_of(options.grid), options.spacing_m);
   placed.sensors = placed.grid->sensors;
-  for (std::size_t i = 0; i < placed.sensors.size(); ++i) {
-    placed.position.push_back(lit.scene().frame.to_file(placed.sensors.position[i]));
-    placed.normal.push_back(placed.sensors.normal[i]);
-  }
+  placed.in_file = placed.sensors;
+  for (Vec3& position : placed.in_file.position) position = lit.scene().frame.to_file(position);
   return placed;
 }
 
 void write_result(const IlluminanceCommandOptions& options, const LitScene& lit,
                   const Placed& placed, const IlluminanceResult& result) {
   if (!ends_with(options.lit.out, ".vtp")) {
-    illuminance_table(placed.position, placed.normal, result.values).write(options.lit.out);
+    illuminance_table(placed.in_file.position, placed.in_file.normal, result.values)
+        .write(options.lit.out);
     return;
   }
   FieldMesh mesh = placed.grid ? field_of_grid(lit, *placed.grid, result.values)
@@ -104,25 +99,14 @@ int illuminance(const IlluminanceCommandOptions& options, const CommandContext& 
   const IlluminanceResult result =
       illuminate(placed.sensors, lit.rays(), lit.source(), how, context.progress);
   write_result(options, lit, placed, result);
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  std::vector<Finding> findings = lit.scene().findings;
-  findings.insert(findings.end(), lit.sky().diagnostics.begin(), lit.sky().diagnostics.end());
-  findings.insert(findings.end(), result.findings.begin(), result.findings.end());
-  say_findings(context.options, findings);
-  if (context.options.json) {
-    const nlohmann::ordered_json summary{{"seconds", seconds},
-                                         {"rays", result.rays},
-                                         {"depth_maps", 0},
-                                         {"elements", 0},
-                                         {"sensors", placed.sensors.size()},
-                                         {"error_mean", mean_error(result.values)},
-                                         {"out_of_tolerance", result.out_of_tolerance},
-                                         {"sky", lit.sky().description},
-                                         {"horizontal_lux", lit.source().unobstructed_lux()}};
-    fmt::print("{}\n", summary.dump(2));
-  }
-  return result.out_of_tolerance > 0 ? kToleranceNotReached : kDone;
+  return close_calculation(context.options, lit,
+                           {.start = start,
+                            .rays = result.rays,
+                            .counted = "sensors",
+                            .count = placed.sensors.size(),
+                            .out_of_tolerance = result.out_of_tolerance,
+                            .error_mean = mean_error(result.values),
+                            .findings = result.findings});
 }
 
 }  // namespace

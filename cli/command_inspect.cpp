@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/finding_json.h"
 #include "cli/scene_options.h"
 #include "scene/flatten.h"
 
@@ -40,13 +40,6 @@ Counts counts_of(const Scene& scene, const TriangleSoup& soup) {
 }
 
 Json json_of(Vec3 v) { return Json::array({v.x, v.y, v.z}); }
-
-Json json_of(const Finding& finding) {
-  return {{"code", finding.code},     {"severity", name_of(finding.severity)},
-          {"object", finding.object}, {"where", finding.where},
-          {"what", finding.what},     {"repair", finding.repair},
-          {"count", finding.count}};
-}
 
 Json place_of(const Scene& scene) {
   if (!scene.georeference) return nullptr;

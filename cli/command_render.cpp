@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <nlohmann/json.hpp>
 
 #include "cli/command.h"
 #include "cli/lit_scene_options.h"
@@ -81,15 +80,14 @@ int render(const RenderOptions& options, const CommandContext& context) {
       render_view(request, lit.rays(), lit.source(), lit.sky().model.get(), context.progress);
   write_view(options.lit.out, view, kind,
              {.title = options.lit.scene.scene, .time = options.lit.site.time, .units = {}});
-  if (context.options.json) {
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const nlohmann::ordered_json summary{
-        {"seconds", seconds}, {"rays", view.rays},        {"depth_maps", 0},
-        {"elements", 0},      {"pixels", width * height}, {"error_mean", view.error_mean}};
-    fmt::print("{}\n", summary.dump(2));
-  }
-  return kDone;
+  return close_calculation(context.options, lit,
+                           {.start = start,
+                            .rays = view.rays,
+                            .counted = "pixels",
+                            .count = view.luminance.pixels.size(),
+                            .out_of_tolerance = view.out_of_tolerance,
+                            .error_mean = view.error_mean,
+                            .findings = view.findings});
 }
 
 }  // namespace

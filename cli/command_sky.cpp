@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "cli/command.h"
+#include "cli/finding_json.h"
 #include "cli/partition_options.h"
 #include "cli/sky_options.h"
 #include "core/atomic_file.h"
@@ -70,36 +71,18 @@ std::string element_csv(const SkyPartition& partition) {
   return text;
 }
 
-std::string json_text(const std::string& s) {
-  std::string quoted = "\"";
-  for (const char c : s) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    if (static_cast<unsigned char>(c) < 0x20) {
-      quoted += fmt::format("\\u{:04x}", static_cast<int>(c));
-    } else {
-      quoted += c;
-    }
-  }
-  return quoted + "\"";
-}
-
-std::string json_of(const Sky& sky, const SkyPartition& partition) {
-  std::string findings;
-  for (const Finding& f : sky.diagnostics) {
-    findings += fmt::format(
-        "{}{{\"code\":{},\"severity\":\"{}\",\"object\":{},\"where\":{},\"what\":{},\"repair\":{},"
-        "\"count\":{}}}",
-        findings.empty() ? "" : ",", json_text(f.code), name_of(f.severity), json_text(f.object),
-        json_text(f.where), json_text(f.what), json_text(f.repair), f.count);
-  }
-  return fmt::format(
-      "{{\"zenith_luminance_cd_m2\":{},\"horizontal_diffuse_lux\":{},\"elements\":{},"
-      "\"diagnostics\":[{}],\"sun_normal_lux\":{},\"sun_azimuth_deg\":{},\"sun_altitude_deg\":{},"
-      "\"standard_error\":{},\"description\":{}}}",
-      sky.luminance(kZenith).value(), sky.horizontal_diffuse_lux, partition.elements.size(),
-      findings, sky.sun.normal_illuminance.value(), azimuth_of(sky.sun.direction).in_degrees(),
-      altitude_of(sky.sun.direction).in_degrees(), partition.standard_error,
-      json_text(sky.description));
+nlohmann::ordered_json json_of(const Sky& sky, const SkyPartition& partition) {
+  nlohmann::ordered_json summary{{"zenith_luminance_cd_m2", sky.luminance(kZenith).value()},
+                                 {"horizontal_diffuse_lux", sky.horizontal_diffuse_lux},
+                                 {"elements", partition.elements.size()},
+                                 {"diagnostics", nlohmann::ordered_json::array()},
+                                 {"sun_normal_lux", sky.sun.normal_illuminance.value()},
+                                 {"sun_azimuth_deg", azimuth_of(sky.sun.direction).in_degrees()},
+                                 {"sun_altitude_deg", altitude_of(sky.sun.direction).in_degrees()},
+                                 {"standard_error", partition.standard_error},
+                                 {"description", sky.description}};
+  for (const Finding& f : sky.diagnostics) summary["diagnostics"].push_back(json_of(f));
+  return summary;
 }
 
 bool is_table(const std::filesystem::path& out) { return out == "-" || out.extension() == ".csv"; }
@@ -137,7 +120,7 @@ int run_sky(const SkyCommandOptions& o, const CommandContext& context) {
   for (const Finding& f : sky.diagnostics) {
     say(context.options, fmt::format("{}: {}; {}", name_of(f.severity), f.what, f.repair));
   }
-  if (context.options.json) fmt::print("{}\n", json_of(sky, partition));
+  if (context.options.json) fmt::print("{}\n", json_of(sky, partition).dump(2));
   return kDone;
 }
 
@@ -147,7 +130,7 @@ CommandBody make_sky_command(CLI::App& app) {
   auto options = std::make_shared<SkyCommandOptions>();
   add_site_options(app, options->site);
   add_sky_options(app, options->sky);
-  add_partition_options(app, options->partition);
+  add_partition_options(app, options->partition, "adaptive");
   app.add_option("--directions", options->directions,
                  "CSV table of azimuth_deg,altitude_deg to give the luminance of");
   app.add_option(

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "core/error.h"
 
@@ -24,6 +25,7 @@ void add_lit_scene_options(CLI::App& app, LitSceneOptions& options) {
   add_scene_options(app, options.scene);
   add_site_options(app, options.site);
   add_sky_options(app, options.sky);
+  add_partition_options(app, options.partition, "none, the sky is summed over slices");
   app.add_option("--tolerance", options.tolerance_pct,
                  "error asked for, percent of each value (default 2)");
   app.add_option("--bounces", options.bounces,
@@ -34,12 +36,37 @@ void add_lit_scene_options(CLI::App& app, LitSceneOptions& options) {
 
 LitScene load_lit_scene(const LitSceneOptions& options, Progress& progress) {
   check_engine(options.engine);
+  std::optional<PartitionRequest> partition;
+  if (options.partition.is_given()) partition = resolve_partition(options.partition);
   ReadOptions read = read_options(options.scene);
   if (options.site.latitude_deg) read.site = resolve_location(options.site, std::nullopt);
   const auto make_sky = [&](const std::optional<Location>& scene_site) {
     return resolve_sky(options.site, options.sky, scene_site);
   };
-  return LitScene(options.scene.scene, read, make_sky, progress);
+  return LitScene(options.scene.scene, read, make_sky, partition, progress);
+}
+
+int close_calculation(const CommonOptions& options, const LitScene& lit,
+                      const CalculationSummary& summary) {
+  std::vector<Finding> findings = lit.scene().findings;
+  for (const auto* more : {&lit.sky().diagnostics, &summary.findings}) {
+    findings.insert(findings.end(), more->begin(), more->end());
+  }
+  say_findings(options, findings);
+  if (options.json) {
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - summary.start;
+    const nlohmann::ordered_json json{{"seconds", time.count()},
+                                      {"rays", summary.rays},
+                                      {"depth_maps", 0},
+                                      {"elements", lit.source().element_count()},
+                                      {summary.counted, summary.count},
+                                      {"error_mean", summary.error_mean},
+                                      {"out_of_tolerance", summary.out_of_tolerance},
+                                      {"sky", lit.sky().description},
+                                      {"horizontal_lux", lit.source().unobstructed_lux()}};
+    fmt::print("{}\n", json.dump(2));
+  }
+  return summary.out_of_tolerance > 0 ? kToleranceNotReached : kDone;
 }
 
 void say_findings(const CommonOptions& options, const std::vector<Finding>& findings) {

@@ -1,10 +1,14 @@
 /// The options of everything that lights a scene.
 #pragma once
 
+#include <chrono>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/command.h"
+#include "cli/partition_options.h"
 #include "cli/scene_options.h"
 #include "cli/sky_options.h"
 #include "core/progress.h"
@@ -17,6 +21,7 @@ struct LitSceneOptions {
   SceneOptions scene;
   SiteOptions site;
   SkyOptions sky;
+  PartitionOptions partition;
   double tolerance_pct = 2.0;
   int bounces = 5;
   std::string engine = "auto", out;
@@ -26,6 +31,21 @@ void add_lit_scene_options(CLI::App& app, LitSceneOptions& options);
 
 /// @throws InputError, ResourceError as the readers, the sky and the engine do
 LitScene load_lit_scene(const LitSceneOptions& options, Progress& progress);
+
+/// What a calculation came to.
+struct CalculationSummary {
+  std::chrono::steady_clock::time_point start;
+  std::uint64_t rays = 0;
+  std::string counted;  ///< `sensors` or `pixels`
+  std::size_t count = 0, out_of_tolerance = 0;
+  double error_mean = 0.0;
+  std::vector<Finding> findings;  ///< of the calculation; the scene and the sky have their own
+};
+
+/// Tells the findings of scene, sky and calculation, and with `--json` the summary.
+/// @return the exit code
+int close_calculation(const CommonOptions& options, const LitScene& lit,
+                      const CalculationSummary& summary);
 
 /// One line on each kind of finding, to standard error.
 void say_findings(const CommonOptions& options, const std::vector<Finding>& findings);

@@ -14,14 +14,15 @@ namespace tenku {
 
 /// `--partition`, `--elements`, `--energy-threshold`.
 struct PartitionOptions {
-  std::string partition = "adaptive";
+  std::optional<std::string> partition;
   std::optional<long> elements;
   std::optional<double> energy_threshold_lux;
 
-  bool is_default() const { return partition == "adaptive" && !elements && !energy_threshold_lux; }
+  bool is_given() const { return partition || elements || energy_threshold_lux; }
 };
 
-void add_partition_options(CLI::App& app, PartitionOptions& options);
+/// @param otherwise  what is done where none of them is given
+void add_partition_options(CLI::App& app, PartitionOptions& options, const std::string& otherwise);
 
 /// @throws InputError
 PartitionRequest resolve_partition(const PartitionOptions& options);

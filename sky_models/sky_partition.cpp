@@ -16,30 +16,6 @@ namespace {
 constexpr double kDefaultTolerance = 0.005;
 constexpr std::size_t kDefaultElements = 512, kMostElements = 1000000;
 
-void check(const PartitionRequest& r) {
-  if (r.elements && !(*r.elements >= 1 && *r.elements <= kMostElements)) {
-    throw InputError(fmt::format("{} sky elements: not in 1..{}", *r.elements, kMostElements));
-  }
-  if (r.energy_threshold_lux && !(*r.energy_threshold_lux > 0.0)) {
-    throw InputError(
-        fmt::format("energy threshold {} must be above zero", *r.energy_threshold_lux));
-  }
-  if (r.tolerance && !(*r.tolerance > 0.0)) {
-    throw InputError(fmt::format("tolerance {} must be above zero", *r.tolerance));
-  }
-  if (r.elements.has_value() + r.energy_threshold_lux.has_value() + r.tolerance.has_value() > 1) {
-    throw InputError("sky elements: give a count, an energy threshold or a tolerance, not two");
-  }
-  const bool is_fixed =
-      r.method == PartitionMethod::Tregenza || r.method == PartitionMethod::Reinhart;
-  if (is_fixed && (r.elements || r.energy_threshold_lux || r.tolerance)) {
-    throw InputError("the tregenza and reinhart partitions know their own count of elements");
-  }
-  if (r.energy_threshold_lux && r.method == PartitionMethod::Uniform) {
-    throw InputError("an energy threshold goes with the energy partition, not with uniform");
-  }
-}
-
 struct Piece {
   SkyCell cell;
   ElementMoments moments;
@@ -203,6 +179,30 @@ PartitionRequest parse_partition(std::string_view text) {
                   text));
 }
 
+void check_partition(const PartitionRequest& r) {
+  if (r.elements && !(*r.elements >= 1 && *r.elements <= kMostElements)) {
+    throw InputError(fmt::format("{} sky elements: not in 1..{}", *r.elements, kMostElements));
+  }
+  if (r.energy_threshold_lux && !(*r.energy_threshold_lux > 0.0)) {
+    throw InputError(
+        fmt::format("energy threshold {} must be above zero", *r.energy_threshold_lux));
+  }
+  if (r.tolerance && !(*r.tolerance > 0.0)) {
+    throw InputError(fmt::format("tolerance {} must be above zero", *r.tolerance));
+  }
+  if (r.elements.has_value() + r.energy_threshold_lux.has_value() + r.tolerance.has_value() > 1) {
+    throw InputError("sky elements: give a count, an energy threshold or a tolerance, not two");
+  }
+  const bool is_fixed =
+      r.method == PartitionMethod::Tregenza || r.method == PartitionMethod::Reinhart;
+  if (is_fixed && (r.elements || r.energy_threshold_lux || r.tolerance)) {
+    throw InputError("the tregenza and reinhart partitions know their own count of elements");
+  }
+  if (r.energy_threshold_lux && r.method == PartitionMethod::Uniform) {
+    throw InputError("an energy threshold goes with the energy partition, not with uniform");
+  }
+}
+
 double SkyPartition::horizontal_lux() const {
   double sum = 0.0;
   for (const SkyElement& e : elements) sum += e.illuminance_vector.z;
@@ -210,7 +210,7 @@ double SkyPartition::horizontal_lux() const {
 }
 
 SkyPartition partition_sky(const SkyModel& sky, const PartitionRequest& request) {
-  check(request);
+  check_partition(request);
   SkyPartition partition;
   Symmetric3 covariance{};
   for (const Piece& piece : pieces_of(sky, with_defaults(request))) {

@@ -29,6 +29,9 @@ struct PartitionRequest {
 /// @throws InputError for any other text
 PartitionRequest parse_partition(std::string_view text);
 
+/// @throws InputError if the request contradicts itself or is out of range
+void check_partition(const PartitionRequest& request);
+
 /// A partition of the vault above the horizon.
 struct SkyPartition {
   std::vector<SkyElement> elements;
@@ -52,7 +55,7 @@ struct SkyPartition {
 /// Lighting Res. Technol. 19, 1987, 145 patches, the first of each band centred on north.
 /// `Reinhart`: its patches divided M x M, as in Radiance. Error    solid angles add up to 2 pi
 /// within 1e-12; horizontal illuminance exact within 1e-6. Threads  deterministic.
-/// @throws InputError if the request contradicts itself or is out of range
+/// @throws InputError as `check_partition`
 SkyPartition partition_sky(const SkyModel& sky, const PartitionRequest& request = {});
 
 }  // namespace tenku

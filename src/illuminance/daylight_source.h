@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "illuminance/element_sky.h"
 #include "illuminance/sky_table.h"
 #include "sky_models/sky_model.h"
 
@@ -11,10 +12,13 @@ namespace tenku {
 /// The sky as a table (null: none) and the sun (zero illuminance: none).
 struct DaylightSource {
   std::unique_ptr<SkyTable> sky;
+  std::unique_ptr<ElementSky> elements;  ///< asked for by hand: sensors sum these, not slices
   SolarDisc sun;
 
   /// Illuminance of the unobstructed horizontal plane from both, lux.
   double unobstructed_lux() const;
+  /// Of the sky, 0 where sensors sum slices.
+  std::size_t element_count() const { return elements ? elements->size() : 0; }
 };
 
 }  // namespace tenku

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "illuminance/reflected_light.h"
-#include "illuminance/reflected_sharing.h"
 #include "illuminance/sensor_sky.h"
 #include "illuminance/sensor_sun.h"
 #include "illuminance/sky_cache.h"
@@ -35,54 +35,88 @@ void check_options(const IlluminanceOptions& options) {
 /// One sensor: its parts, refined where the gain is largest for the cost.
 class SensorWork {
  public:
-  SensorWork(const Sensors& sensors, std::size_t index, const RayVisibility& rays,
-             const DaylightSource& source, SkyCache& cache, const IlluminanceOptions& options)
+  struct Place {
+    const Sensors& sensors;
+    std::size_t index;
+    Vec3 position() const { return sensors.position[index]; }
+    Vec3 normal() const { return sensors.normal[index]; }
+  };
+
+  /// @param cache  null: no reflected light
+  SensorWork(Place at, const RayVisibility& rays, const DaylightSource& source, SkyCache* cache,
+             const IlluminanceOptions& options)
       : options_(options),
-        sky_(rays, source.sky.get(), sensors.position[index], sensors.normal[index],
-             SampleRandom(options.seed, index, 0),
+        rays_(rays),
+        elements_(source.elements.get()),
+        at_(at),
+        sky_(rays, source.sky.get(), at.position(), at.normal(),
+             SampleRandom(options.seed, at.index, 0),
              SensorSky::Effort{.first_slices = options.first_slices}),
-        sun_(rays, source.sun, sensors.position[index], sensors.normal[index],
-             mix_bits(mix_bits(options.seed) + index)),
-        reflected_(rays, cache, options.bounces, sensors.position[index], sensors.normal[index],
-                   SampleRandom(options.seed, index, 1)) {
-    if (options.known_direct == nullptr) return;
-    known_direct_ = options.known_direct->lux[index];
-    reflected_.set_way(ReflectedLight::way_for(options.known_direct->sky_view[index]));
+        sun_(rays, source.sun, at.position(), at.normal(),
+             mix_bits(mix_bits(options.seed) + at.index)) {
+    if (options.known_direct != nullptr) known_direct_ = options.known_direct->lux[at.index];
+    if (cache == nullptr) return;
+    reflected_.emplace(rays, *cache, options.bounces, at.position(), at.normal(),
+                       SampleRandom(options.seed, at.index, 1));
   }
 
   /// Refines until the budget is met; false if the limit of effort came first.
   bool finish(const ErrorBudget& budget) {
     if (known_direct_ < 0.0) {
       sun_.refine();
-      do {
-        sky_.refine();
-      } while (sky_.may_miss_openings() && sky_.slices() * options_.tolerance_pct < kSureOfDark);
-      reflected_.set_way(ReflectedLight::way_for(sky_.sky_view()));
+      see_sky();
     }
-    if (options_.bounces > 0) reflected_.refine();
-    while (variance() > budget.allowed_variance(total())) {
+    if (reflected_) {
+      reflected_->set_way(ReflectedLight::way_for(options_.known_direct
+                                                      ? options_.known_direct->sky_view[at_.index]
+                                                      : light_of_sky().sky_view));
+      reflected_->refine();
+    }
+    while (refinable_variance() > budget.allowed_variance(total())) {
       if (!refine_worst()) return false;
     }
-    return true;
+    return elements_ == nullptr || interval_lux(variance(), 0.0) <= budget.allowed_lux(total());
   }
 
   void store(SensorIlluminance& values, std::size_t index) const {
     values.sun_lux[index] = sun_.lux();
-    values.sky_lux[index] = sky_.lux();
-    values.reflected_lux[index] = std::max(0.0, reflected_.lux());
-    values.sky_view[index] = sky_.sky_view();
-    values.error_lux[index] = interval_lux(variance(), reflected_.left_out_lux());
+    values.sky_lux[index] = light_of_sky().lux;
+    values.reflected_lux[index] = std::max(0.0, reflected_lux());
+    values.sky_view[index] = light_of_sky().sky_view;
+    values.error_lux[index] =
+        interval_lux(variance(), reflected_ ? reflected_->left_out_lux() : 0.0);
   }
 
   std::uint64_t rays_sent() const {
-    return sky_.rays_sent() + sun_.rays_sent() + reflected_.rays_sent();
+    return light_of_sky().rays + sun_.rays_sent() + (reflected_ ? reflected_->rays_sent() : 0);
   }
 
  private:
-  double total() const {
-    return std::max(0.0, known_direct_) + sky_.lux() + sun_.lux() + reflected_.lux();
+  void see_sky() {
+    if (elements_ != nullptr) {
+      by_elements_ = elements_->light(rays_, at_.position() + rays_.lift_m() * at_.normal(),
+                                      at_.normal(), SampleRandom(options_.seed, at_.index, 0));
+      return;
+    }
+    do {
+      sky_.refine();
+    } while (sky_.may_miss_openings() && sky_.slices() * options_.tolerance_pct < kSureOfDark);
   }
-  double variance() const { return sky_.variance() + sun_.variance() + reflected_.variance(); }
+
+  ElementSky::Light light_of_sky() const {
+    if (elements_ != nullptr) return by_elements_;
+    return {sky_.lux(), sky_.variance(), sky_.sky_view(), sky_.rays_sent()};
+  }
+  double reflected_lux() const { return reflected_ ? reflected_->lux() : 0.0; }
+  double reflected_variance() const { return reflected_ ? reflected_->variance() : 0.0; }
+  double total() const {
+    return std::max(0.0, known_direct_) + light_of_sky().lux + sun_.lux() + reflected_lux();
+  }
+  /// Without that of elements, which their count has settled.
+  double refinable_variance() const {
+    return sky_.variance() + sun_.variance() + reflected_variance();
+  }
+  double variance() const { return refinable_variance() + by_elements_.variance; }
 
   /// Doubles the effort of the part where that gains the most for its rays, of those that can
   /// still be refined.
@@ -94,12 +128,13 @@ class SensorWork {
     const double sky =
         gain(sky_.slices() < options_.most_slices, sky_.variance(), sky_.rays_sent());
     const double sun = gain(sun_.rays_sent() < most_paths, sun_.variance(), sun_.rays_sent());
-    const double reflected = gain(reflected_.paths() < options_.most_paths, reflected_.variance(),
-                                  reflected_.rays_sent());
+    const double reflected = reflected_ ? gain(reflected_->paths() < options_.most_paths,
+                                               reflected_->variance(), reflected_->rays_sent())
+                                        : 0.0;
     const double most = std::max({sky, sun, reflected});
     if (!(most > 0.0)) return false;
     if (most == reflected) {
-      reflected_.refine();
+      reflected_->refine();
     } else if (most == sky) {
       sky_.refine();
     } else {
@@ -109,9 +144,13 @@ class SensorWork {
   }
 
   const IlluminanceOptions& options_;
+  const RayVisibility& rays_;
+  const ElementSky* elements_;
+  Place at_;
+  ElementSky::Light by_elements_;
   SensorSky sky_;
   SensorSun sun_;
-  ReflectedLight reflected_;
+  std::optional<ReflectedLight> reflected_;
   double known_direct_ = -1.0;  ///< below zero: not known
 };
 
@@ -122,24 +161,11 @@ IlluminanceResult illuminate_sharing(const Sensors& sensors, const RayVisibility
   IlluminanceOptions direct = options;
   direct.bounces = 0;
   IlluminanceResult result = illuminate(sensors, rays, source, direct, progress);
-  const ReflectedSharing sharing(sensors, options.share_reflected_m);
-  Sensors few;
-  IlluminanceOptions::KnownDirect known;
-  for (const std::size_t s : sharing.representatives()) {
-    few.position.push_back(sensors.position[s]);
-    few.normal.push_back(sensors.normal[s]);
-    known.lux.push_back(result.values.total_lux(s));
-    known.sky_view.push_back(result.values.sky_view[s]);
-  }
+  const ReflectedSharing sharing(sensors, sharing_by_distance(sensors, options.share_reflected_m));
   IlluminanceOptions reflected = options;
-  reflected.share_reflected_m = 0.0;
   reflected.floor_share = 0.01;  // what is shared is not exact to that in any case
   reflected.tolerance_pct = std::min(100.0, kBlended * options.tolerance_pct);
-  reflected.known_direct = &known;
-  const IlluminanceResult some = illuminate(few, rays, source, reflected, progress);
-  sharing.spread(some.values, rays, result.values);
-  result.rays += some.rays;
-  result.out_of_tolerance += some.out_of_tolerance;
+  add_shared_reflection(sharing, rays, source, reflected, progress, result);
   return result;
 }
 
@@ -157,13 +183,17 @@ void find_dark_sensors(const SensorIlluminance& values, std::vector<Finding>& fi
   if (dark.count > 0) findings.push_back(std::move(dark));
 }
 
-Finding tolerance_not_reached(std::size_t sensors) {
+/// Counts the sensors out of tolerance, and says so in the findings.
+void tell_missed(IlluminanceResult& result) {
   Finding finding;
   finding.code = "tolerance_not_reached";
   finding.what = "sensors met the limit of effort before the tolerance; error_lux tells how near";
-  finding.repair = "a higher tolerance, or take them as they are";
-  finding.count = sensors;
-  return finding;
+  finding.repair = "a higher tolerance, more elements of a sky divided by hand, or take them so";
+  finding.count = static_cast<std::size_t>(
+      std::count(result.is_missed.begin(), result.is_missed.end(), std::uint8_t{1}));
+  result.out_of_tolerance = finding.count;
+  std::erase_if(result.findings, [&](const Finding& f) { return f.code == finding.code; });
+  if (finding.count > 0) result.findings.push_back(std::move(finding));
 }
 
 }  // namespace
@@ -178,29 +208,52 @@ IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
   const ErrorBudget budget(options.tolerance_pct, options.floor_share * source.unobstructed_lux());
   IlluminanceResult result;
   result.values = SensorIlluminance(sensors.size());
+  result.is_missed.resize(sensors.size());
   std::atomic<std::uint64_t> rays_sent{0};
-  std::atomic<std::size_t> missed{0};
-  SkyCache cache(rays, source, options.seed);
+  std::optional<SkyCache> cache;
+  if (options.bounces > 0) cache.emplace(rays, source, options.seed);
   progress.begin(options.known_direct ? "reflected light" : "illuminance", sensors.size());
   parallel_for(sensors.size(), kGrain, [&](IndexRange range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
       progress.stop_if_cancelled();
-      SensorWork work(sensors, i, rays, source, cache, options);
-      if (!work.finish(budget)) ++missed;
+      SensorWork work({sensors, i}, rays, source, cache ? &*cache : nullptr, options);
+      result.is_missed[i] = !work.finish(budget);
       work.store(result.values, i);
       rays_sent += work.rays_sent();
     }
     progress.advance(range.end - range.begin);
   });
-  result.rays = rays_sent + cache.rays_sent();
-  result.out_of_tolerance = missed;
-  if (missed > 0) result.findings.push_back(tolerance_not_reached(missed));
+  result.rays = rays_sent + (cache ? cache->rays_sent() : 0);
+  tell_missed(result);
   if (options.known_direct == nullptr && source.unobstructed_lux() > 0.0) {
     find_dark_sensors(result.values, result.findings);
   }
   progress.end(std::to_string(sensors.size()) + " sensors, " + std::to_string(result.rays) +
                " rays");
   return result;
+}
+
+void add_shared_reflection(const ReflectedSharing& sharing, const RayVisibility& rays,
+                           const DaylightSource& source, const IlluminanceOptions& options,
+                           Progress& progress, IlluminanceResult& result) {
+  Sensors few;
+  IlluminanceOptions::KnownDirect known;
+  for (const std::size_t s : sharing.representatives()) {
+    few.position.push_back(sharing.sensors().position[s]);
+    few.normal.push_back(sharing.sensors().normal[s]);
+    known.lux.push_back(result.values.total_lux(s));
+    known.sky_view.push_back(result.values.sky_view[s]);
+  }
+  IlluminanceOptions reflected = options;
+  reflected.share_reflected_m = 0.0;
+  reflected.known_direct = &known;
+  const IlluminanceResult some = illuminate(few, rays, source, reflected, progress);
+  sharing.spread(some.values, rays, result.values);
+  result.rays += some.rays;
+  for (std::size_t k = 0; k < few.size(); ++k) {
+    result.is_missed[sharing.representatives()[k]] |= some.is_missed[k];
+  }
+  tell_missed(result);
 }
 
 }  // namespace tenku

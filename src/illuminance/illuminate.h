@@ -8,6 +8,7 @@
 #include "core/progress.h"
 #include "illuminance/daylight_source.h"
 #include "illuminance/error_budget.h"
+#include "illuminance/reflected_sharing.h"
 #include "illuminance/sensor.h"
 #include "visibility/ray_visibility.h"
 
@@ -36,16 +37,26 @@ struct IlluminanceOptions {
 struct IlluminanceResult {
   SensorIlluminance values;
   std::uint64_t rays = 0;
-  std::size_t out_of_tolerance = 0;  ///< sensors that reached the limit of effort first
+  std::vector<std::uint8_t> is_missed;  ///< [sensor], whether the limit of effort came first
+  std::size_t out_of_tolerance = 0;     ///< how many of them
   std::vector<Finding> findings;
 };
 
-/// Illuminance of every sensor. Rays are spent where the interval is still too wide.
+/// Illuminance of every sensor. Rays are spent where the interval is still too wide. Where
+/// `source.elements` is given, they settle the error of the skylight; sensors with an interval
+/// wider than the tolerance are then out of tolerance.
 /// Same bits for any number of threads.
 /// @throws InputError  tolerance not in (0, 100], bounces not in 0..100
 /// @throws Cancelled   if the user asks to stop
 IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
                              const DaylightSource& source, const IlluminanceOptions& options,
                              Progress& progress);
+
+/// Adds the reflected light to a result of direct light: that of the representatives, calculated
+/// as `options` say, and of the others from them.
+/// @throws as `illuminate`
+void add_shared_reflection(const ReflectedSharing& sharing, const RayVisibility& rays,
+                           const DaylightSource& source, const IlluminanceOptions& options,
+                           Progress& progress, IlluminanceResult& result);
 
 }  // namespace tenku

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/parallel.h"
 #include "core/random.h"
@@ -12,103 +13,132 @@ namespace {
 
 constexpr double kNormalSteps = 50.0;  // of a normal's component that counts as one plane
 constexpr double kOffsetSteps = 2.0;   // a metre
+constexpr double k95 = 1.96;           // standard errors in an interval
+
+bool is_flat_normal(Vec3 normal) { return std::abs(normal.z) > 0.9; }
+
+std::uint64_t plane_of(Vec3 n, Vec3 p) {
+  std::uint64_t plane = 0;
+  // A gently rolling ground is one surface: only what is steep is told apart by its offset.
+  const bool flat = is_flat_normal(n);
+  const double offset = flat ? 0.0 : kOffsetSteps * dot(n, p);
+  for (const double part : {kNormalSteps * n.x, kNormalSteps * n.y, kNormalSteps * n.z, offset}) {
+    const double step = flat ? part / 10.0 : part;
+    plane = mix_bits(plane + static_cast<std::uint64_t>(std::llround(step)));
+  }
+  return plane;
+}
 
 }  // namespace
 
-ReflectedSharing::ReflectedSharing(const Sensors& sensors, double distance_m)
-    : sensors_(sensors), distance_m_(distance_m) {
+SharingLayout sharing_by_distance(const Sensors& sensors, double distance_m) {
+  SharingLayout layout;
   for (std::size_t s = 0; s < sensors.size(); ++s) {
-    if (place_.emplace(key_of(cell_of(s)), representative_.size()).second) {
+    layout.place.push_back((1.0 / distance_m) * sensors.position[s]);
+    layout.surface.push_back(plane_of(sensors.normal[s], sensors.position[s]));
+  }
+  return layout;
+}
+
+ReflectedSharing::ReflectedSharing(const Sensors& sensors, SharingLayout layout)
+    : sensors_(sensors), layout_(std::move(layout)) {
+  bool is_level = true;
+  for (std::size_t s = 0; s < sensors.size(); ++s) {
+    is_level &= layout_.place[s].z == layout_.place[0].z;
+    if (place_.emplace(cell_key(s, {}), representative_.size()).second) {
       representative_.push_back(s);
+    }
+  }
+  const int reach = layout_.reach, up = is_level ? 0 : reach;
+  for (int k = -up; k <= up; ++k) {
+    for (int j = -reach; j <= reach; ++j) {
+      for (int i = -reach; i <= reach; ++i) {
+        steps_.push_back({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
+      }
     }
   }
 }
 
-ReflectedSharing::Cell ReflectedSharing::cell_of(std::size_t sensor) const {
-  const Vec3 n = sensors_.normal[sensor], p = sensors_.position[sensor];
-  std::uint64_t plane = 0;
-  // A gently rolling ground is one surface: only what is steep is told apart by its offset.
-  const double offset = is_flat(sensor) ? 0.0 : kOffsetSteps * dot(n, p);
-  for (const double part : {kNormalSteps * n.x, kNormalSteps * n.y, kNormalSteps * n.z, offset}) {
-    const double step = is_flat(sensor) ? part / 10.0 : part;
-    plane = mix_bits(plane + static_cast<std::uint64_t>(std::llround(step)));
-  }
-  const auto index = [&](double x) {
-    return static_cast<std::int64_t>(std::floor(x / distance_m_));
-  };
-  return {plane, index(p.x), index(p.y), index(p.z)};
-}
-
-std::uint64_t ReflectedSharing::key_of(const Cell& cell) {
-  std::uint64_t key = cell.plane;
-  for (const std::int64_t x : {cell.i, cell.j, cell.k}) {
-    key = mix_bits(key + static_cast<std::uint64_t>(x));
+std::uint64_t ReflectedSharing::cell_key(std::size_t sensor, Vec3 steps_away) const {
+  std::uint64_t key = layout_.surface[sensor];
+  const Vec3 place = layout_.place[sensor];
+  for (const double x : {std::floor(place.x) + steps_away.x, std::floor(place.y) + steps_away.y,
+                         std::floor(place.z) + steps_away.z}) {
+    key = mix_bits(key + static_cast<std::uint64_t>(static_cast<std::int64_t>(x)));
   }
   return key;
+}
+
+bool ReflectedSharing::is_seen(std::size_t sensor, std::size_t other,
+                               const RayVisibility& rays) const {
+  const Vec3 at = sensors_.position[sensor] + rays.lift_m() * sensors_.normal[sensor];
+  const Vec3 way = sensors_.position[other] + rays.lift_m() * sensors_.normal[other] - at;
+  const double away = length(way);
+  if (!(away > 1e-6)) return true;
+  const auto hit = rays.first_hit(at, (1.0 / away) * way);
+  return !hit || hit->distance_m >= away;
 }
 
 ReflectedSharing::Blend ReflectedSharing::blend_at(std::size_t sensor, bool without_itself,
                                                    const SensorIlluminance& results,
                                                    const RayVisibility& rays) const {
-  const Cell middle = cell_of(sensor);
-  const Vec3 at = sensors_.position[sensor] + rays.lift_m() * sensors_.normal[sensor];
   Blend blend;
-  for (int n = 0; n < 27; ++n) {
-    const Cell cell{middle.plane, middle.i + n % 3 - 1, middle.j + n / 3 % 3 - 1,
-                    middle.k + n / 9 - 1};
-    const auto found = place_.find(key_of(cell));
+  double mean_error = 0.0;
+  for (const Vec3 step : steps_) {
+    const auto found = place_.find(cell_key(sensor, step));
     if (found == place_.end()) continue;
     const std::size_t other = representative_[found->second];
     if (other == sensor && without_itself) continue;
-    const Vec3 way = sensors_.position[other] + rays.lift_m() * sensors_.normal[other] - at;
-    const double away = length(way);
-    if (away > 1e-6) {
-      const auto hit = rays.first_hit(at, (1.0 / away) * way);
-      if (hit && hit->distance_m < away) continue;
-    }
-    const double w = std::exp(-away * away / (distance_m_ * distance_m_)) + 1e-6;
+    if (layout_.must_see && !is_seen(sensor, other, rays)) continue;
+    const double away = length(layout_.place[other] - layout_.place[sensor]) / layout_.reach;
+    const double w = std::exp(-away * away) + 1e-6;
     blend.lux += w * results.reflected_lux[found->second];
     blend.error_lux += std::pow(w * results.error_lux[found->second], 2);  // independent
+    mean_error += w * results.error_lux[found->second];
     blend.weight += w;
   }
   if (blend.weight > 0.0) {
     blend.lux /= blend.weight;
-    blend.error_lux = std::sqrt(blend.error_lux) / blend.weight;
+    blend.error_lux =
+        (layout_.is_measured ? std::sqrt(blend.error_lux) : mean_error) / blend.weight;
   }
   return blend;
 }
 
 bool ReflectedSharing::is_flat(std::size_t sensor) const {
-  return std::abs(sensors_.normal[sensor].z) > 0.9;
+  return is_flat_normal(sensors_.normal[sensor]);
 }
 
 double ReflectedSharing::missed_lux(bool flat, const SensorIlluminance& of_representatives,
                                     const RayVisibility& rays) const {
-  std::vector<double> squares(representative_.size(), -1.0);
+  if (!layout_.is_measured) return 0.0;
+  std::vector<double> squares(representative_.size());
+  std::vector<std::uint8_t> is_known(representative_.size());
   parallel_for(representative_.size(), 256, [&](IndexRange range) {
     for (std::size_t r = range.begin; r < range.end; ++r) {
       if (is_flat(representative_[r]) != flat) continue;
       const Blend blend = blend_at(representative_[r], true, of_representatives, rays);
       if (!(blend.weight > 0.0)) continue;
       const double missed = blend.lux - of_representatives.reflected_lux[r];
-      squares[r] = missed * missed;
+      const double noise = std::hypot(blend.error_lux, of_representatives.error_lux[r]) / k95;
+      squares[r] = missed * missed - noise * noise;
+      is_known[r] = 1;
     }
   });
   double sum = 0.0, count = 0.0;
-  for (const double square : squares) {
-    if (square >= 0.0) sum += square, count += 1.0;
+  for (std::size_t r = 0; r < squares.size(); ++r) {
+    if (is_known[r]) sum += squares[r], count += 1.0;
   }
-  return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+  return sum > 0.0 ? std::sqrt(sum / count) : 0.0;
 }
 
 void ReflectedSharing::spread(const SensorIlluminance& of_representatives,
                               const RayVisibility& rays, SensorIlluminance& all) const {
   const std::array<double, 2> missed{missed_lux(false, of_representatives, rays),
                                      missed_lux(true, of_representatives, rays)};
-  constexpr double k95 = 1.96;
   parallel_for(sensors_.size(), 256, [&](IndexRange range) {
     for (std::size_t s = range.begin; s < range.end; ++s) {
-      const std::size_t own = place_.at(key_of(cell_of(s)));
+      const std::size_t own = place_.at(cell_key(s, {}));
       Blend blend = blend_at(s, false, of_representatives, rays);
       if (representative_[own] == s || !(blend.weight > 0.0)) {
         blend = {of_representatives.reflected_lux[own], of_representatives.error_lux[own], 1.0};

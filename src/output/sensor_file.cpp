@@ -47,7 +47,7 @@ std::size_t read_numbers(std::string_view line, const Place& place, std::array<d
   return count;
 }
 
-void add_sensor(SensorPoints& sensors, std::string_view line, const Place& place) {
+void add_sensor(Sensors& sensors, std::string_view line, const Place& place) {
   std::array<double, 6> v{};
   const std::size_t count = read_numbers(line.substr(0, line.find('#')), place, v);
   if (count == 0) return;
@@ -67,10 +67,10 @@ void add_sensor(SensorPoints& sensors, std::string_view line, const Place& place
 
 }  // namespace
 
-SensorPoints sensors_from_text(std::string_view text, std::string_view name) {
+Sensors sensors_from_text(std::string_view text, std::string_view name) {
   constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
-  SensorPoints sensors;
+  Sensors sensors;
   for (std::size_t line = 1; !text.empty(); ++line) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     add_sensor(sensors, text.substr(0, end), {name, line});
@@ -82,7 +82,7 @@ SensorPoints sensors_from_text(std::string_view text, std::string_view name) {
   return sensors;
 }
 
-SensorPoints read_sensor_file(const std::filesystem::path& path) {
+Sensors read_sensor_file(const std::filesystem::path& path) {
   using Iterator = std::istreambuf_iterator<char>;
   if (path == "-") {
     return sensors_from_text(std::string(Iterator(std::cin), Iterator()), "standard input");

@@ -29,6 +29,7 @@ class MaterialTable {
  private:
   std::uint32_t index_of(const std::string& name);
   std::uint32_t of_object(std::uint32_t object) const;
+  std::vector<bool> objects_of_windows() const;
 
   RawScene& raw_;
   const std::map<std::string, Material>& named_;
@@ -81,6 +82,16 @@ std::uint32_t MaterialTable::of_object(std::uint32_t object) const {
   return kNone;
 }
 
+/// Objects that are nothing but windows: their own name means these.
+std::vector<bool> MaterialTable::objects_of_windows() const {
+  const Surfaces& surfaces = raw_.scene.surfaces;
+  std::vector<bool> result(raw_.scene.objects.size(), true);
+  for (std::size_t s = 0; s < surfaces.size(); ++s) {
+    if (surfaces.type[s] != SurfaceType::Window) result[surfaces.object[s]] = false;
+  }
+  return result;
+}
+
 void MaterialTable::assign() {
   Surfaces& surfaces = raw_.scene.surfaces;
   const std::size_t objects = raw_.scene.objects.size();
@@ -90,14 +101,18 @@ void MaterialTable::assign() {
     const bool is_group = by_group_[o] != kNone && by_object_[o] == by_group_[o];
     own[o] = is_group ? kNone : of_object(o);
   }
+  const std::vector<bool> only_windows = objects_of_windows();
+  const auto is_glass = [&](std::uint32_t m) { return raw_.scene.materials[m].is_glass(); };
   for (std::size_t s = 0; s < surfaces.size(); ++s) {
     const std::uint32_t object = surfaces.object[s], file = surfaces.material[s];
-    const std::array<std::uint32_t, 3> choices{
-        own[object], file == kNone ? kNone : by_file_material_[file], by_group_[object]};
     std::uint32_t chosen = by_type_[static_cast<std::size_t>(surfaces.type[s])];
-    for (std::size_t k = choices.size(); k-- > 0;) {
-      if (choices[k] != kNone) chosen = choices[k];
+    for (const std::uint32_t more :
+         {by_group_[object], file == kNone ? kNone : by_file_material_[file]}) {
+      if (more != kNone) chosen = more;
     }
+    const bool is_window = surfaces.type[s] == SurfaceType::Window || is_glass(chosen);
+    const bool is_meant = !is_window || (only_windows[object] && by_object_[object] != kNone);
+    if (own[object] != kNone && (is_meant || is_glass(own[object]))) chosen = own[object];
     surfaces.material[s] = chosen;
   }
 }

@@ -20,7 +20,8 @@ Material default_material(SurfaceType type);
 std::map<std::string, Material> read_materials(const std::filesystem::path& path);
 
 /// Sets the scene's materials and the material of each surface. The most specific name wins: object
-/// id (which also holds for the parts of the object), material of the file, group, surface type.
+/// id (which also holds for the parts of the object), material of the file, group, surface type. An
+/// id whose material is no glass leaves windows as they are, but for an object of windows alone.
 /// A name that nothing bears is a finding.
 void assign_materials(RawScene& raw, const std::map<std::string, Material>& named);
 

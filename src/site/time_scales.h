@@ -29,14 +29,16 @@ TimeScales time_scales(Instant instant, const EarthRotation& rotation = {});
 
 /// TT - UT1 in seconds at a Julian date.
 ///
-/// Source   1950-2025: yearly values of The Astronomical Almanac, section K (IERS observations),
-///          interpolated; before: the polynomials of F. Espenak and J. Meeus, "Five Millennium
-///          Canon of Solar Eclipses", NASA/TP-2006-214141, section 2.7; after: the last leap second
-///          known to ERFA is kept, and UT1 taken as UTC.
+/// Source   1 January, interpolated: 1950-1972 the historic table of the United States Naval
+///          Observatory; 1973-2026 UT1 - UTC of the IERS (`finals2000A`, from 2021 as the
+///          observatory's `deltat.data` has it) and the leap seconds. Before: the polynomials of
+///          F. Espenak and J. Meeus, "Five Millennium Canon of Solar Eclipses",
+///          NASA/TP-2006-214141, section 2.7; after: the last leap second known to ERFA is kept,
+///          and UT1 taken as UTC.
 /// Valid    years 1600 to 2400.
-/// Error    0.1 s in 1973-2022 and 0.2 s to 2025, against an independent fit; 0.7 s in 1950-1972,
-///          where the fits themselves differ. In years ahead UT1 is within 0.9 s of UTC as long as
-///          leap seconds are kept. A second is 0.004 degrees of the sun's hour angle.
+/// Error    0.005 s on 1 January; between, the seasons of the Earth's rotation add up to 0.09 s
+///          (against the daily values of 1973-2020). In years ahead UT1 is within 0.9 s of UTC as
+///          long as leap seconds are kept. A second is 0.004 degrees of the sun's hour angle.
 double delta_t_seconds(double julian_date);
 
 }  // namespace tenku

@@ -60,7 +60,8 @@ SurfaceType broad_type(const TriangleSoup& soup, std::uint32_t triangle) {
 }
 
 LitScene::LitScene(const std::filesystem::path& file, const ReadOptions& options,
-                   const SkyMaker& make_sky, Progress& progress)
+                   const SkyMaker& make_sky, const std::optional<PartitionRequest>& partition,
+                   Progress& progress)
     : scene_(read_scene(file, options, progress)),
       soup_(std::make_unique<TriangleSoup>(flatten(scene_))) {
   progress.stop_if_cancelled();
@@ -69,6 +70,10 @@ LitScene::LitScene(const std::filesystem::path& file, const ReadOptions& options
   progress.end(std::to_string(soup_->size()) + " triangles");
   sky_ = make_sky(site());
   if (sky_.model) source_.sky = std::make_unique<SkyTable>(*sky_.model);
+  if (sky_.model && partition) {
+    source_.elements =
+        std::make_unique<ElementSky>(*sky_.model, partition_sky(*sky_.model, *partition));
+  }
   source_.sun = sky_.sun;
 }
 

@@ -16,6 +16,7 @@
 #include "scene/triangle_soup.h"
 #include "site/location.h"
 #include "sky_models/make_sky.h"
+#include "sky_models/sky_partition.h"
 #include "visibility/ray_visibility.h"
 
 namespace tenku {
@@ -28,9 +29,10 @@ class LitScene {
   /// Makes the sky once the scene has told where it lies.
   using SkyMaker = std::function<Sky(const std::optional<Location>& scene_site)>;
 
-  /// @throws InputError, ResourceError as the readers and the ray engine do
+  /// @param partition  the elements of the sky, where they are asked for by hand
+  /// @throws InputError, ResourceError as the readers, the partition and the ray engine do
   LitScene(const std::filesystem::path& file, const ReadOptions& options, const SkyMaker& make_sky,
-           Progress& progress);
+           const std::optional<PartitionRequest>& partition, Progress& progress);
 
   const Scene& scene() const { return scene_; }
   const TriangleSoup& soup() const { return *soup_; }

@@ -73,7 +73,7 @@ class StudyRun {
               moment_ = moment_of(study, scene_site);
               return sky_of(study, moment_);
             },
-            progress_),
+            study.calculation.partition, progress_),
         report_(study, lit_, moment_) {}
 
   void render(const StudyView& view) {
@@ -83,11 +83,20 @@ class StudyRun {
       write_view(place(view.name + "." + format), picture, view.show,
                  {.title = report_.title(), .time = report_.time_text(), .units = {}});
     }
+    outcome_.out_of_tolerance += picture.out_of_tolerance;
     report_.add_view(picture, view);
   }
 
-  void illuminate_surfaces(const StudyField& field) {
-    const SensorGrid grid = lit_.grid(field.surfaces, field.spacing_m);
+  /// Sensors of each field, which may not exist: before the long work.
+  std::vector<SensorGrid> place_sensors() const {
+    std::vector<SensorGrid> grids;
+    for (const StudyField& field : study_.fields) {
+      grids.push_back(lit_.grid(field.surfaces, field.spacing_m));
+    }
+    return grids;
+  }
+
+  void illuminate_surfaces(const StudyField& field, const SensorGrid& grid) {
     const IlluminanceResult result = light(grid.sensors, kShare * field.spacing_m);
     FieldMesh mesh = field_of_grid(lit_, grid, result.values);
     mesh.texts.push_back({"time", {report_.time_text()}});
@@ -96,8 +105,8 @@ class StudyRun {
   }
 
   void illuminate_sensors(const StudySensors& sensors) {
-    const SensorPoints points = read_sensor_file(sensors.file);
-    const IlluminanceResult result = light(lit_.to_local({points.position, points.normal}), 0.0);
+    const Sensors points = read_sensor_file(sensors.file);
+    const IlluminanceResult result = light(lit_.to_local(points), 0.0);
     illuminance_table(points.position, points.normal, result.values)
         .write(place(sensors.name + ".csv"));
   }
@@ -168,8 +177,9 @@ StudyOutcome run_study(const Study& study, const fs::path& folder, Progress& pro
     throw InputError("cannot make the folder " + folder.string() + ": " + error.message());
   }
   StudyRun run(study, folder, progress);  // reads the scene, places the sun, makes the sky
+  const std::vector<SensorGrid> grids = run.place_sensors();
   for (const StudyView& view : study.views) run.render(view);
-  for (const StudyField& field : study.fields) run.illuminate_surfaces(field);
+  for (std::size_t i = 0; i < grids.size(); ++i) run.illuminate_surfaces(study.fields[i], grids[i]);
   for (const StudySensors& sensors : study.sensors) run.illuminate_sensors(sensors);
   if (study.plan) run.map_ground(*study.plan);
   return run.finish();

@@ -15,7 +15,7 @@ namespace tenku {
 /// What a study left behind.
 struct StudyOutcome {
   std::vector<std::filesystem::path> files;
-  std::size_t out_of_tolerance = 0;  ///< sensors that reached the limit of effort first
+  std::size_t out_of_tolerance = 0;  ///< sensors and pixels that reached the limit of effort first
   std::vector<Finding> findings;
 };
 

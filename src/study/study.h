@@ -11,6 +11,7 @@
 #include "core/units.h"
 #include "core/vec3.h"
 #include "site/location.h"
+#include "sky_models/sky_partition.h"
 
 namespace tenku {
 
@@ -45,6 +46,7 @@ struct StudyCalculation {
   int bounces = 5;
   std::uint64_t seed = 1;
   std::string engine = "auto";
+  std::optional<PartitionRequest> partition;  ///< sky elements by hand; else slices
 };
 
 enum class ViewKind { LuminanceImage, IlluminanceImage, FalseColour };

@@ -29,7 +29,9 @@ const std::vector<KnownTable>& known_tables() {
       {"time", {"at", "zone"}},
       {"sun", {"altitude_deg", "azimuth_deg", "illuminance_lx"}},
       {"sky", {"model", "illuminance_lx"}},
-      {"calculation", {"tolerance_percent", "bounces", "seed", "engine"}},
+      {"calculation",
+       {"tolerance_percent", "bounces", "seed", "engine", "partition", "elements",
+        "energy_threshold_lx"}},
       {"view", {"name", "eye", "target", "fov_deg", "size", "show", "files"}},
       {"illuminance", {"name", "surfaces", "spacing_m"}},
       {"sensors", {"name", "file"}},
@@ -135,6 +137,22 @@ StudySky sky_of(const TomlSection& in, const TomlSection& sun, const fs::path& f
   return sky;
 }
 
+std::optional<PartitionRequest> partition_of(const TomlSection& in) {
+  const auto method = in.text("partition");
+  const auto elements = in.integer("elements", {1, 1e6});
+  const auto threshold = in.number("energy_threshold_lx", {0.0, 1e7, true});
+  if (!method && !elements && !threshold) return std::nullopt;
+  try {
+    PartitionRequest request = parse_partition(method.value_or("adaptive"));
+    if (elements) request.elements = static_cast<std::size_t>(*elements);
+    request.energy_threshold_lux = threshold;
+    check_partition(request);
+    return request;
+  } catch (const InputError& error) {
+    in.refuse(method ? "partition" : "elements", error.what());
+  }
+}
+
 StudyCalculation calculation_of(const TomlSection& in) {
   static constexpr std::array<std::string_view, 3> kEngines{"auto", "rays", "shadow-maps"};
   StudyCalculation result;
@@ -143,6 +161,7 @@ StudyCalculation calculation_of(const TomlSection& in) {
   result.bounces = static_cast<int>(in.integer("bounces", {0, 1000}).value_or(result.bounces));
   result.seed = static_cast<std::uint64_t>(in.integer("seed", {0, 9007199254740992.0}).value_or(1));
   result.engine = in.choice("engine", kEngines).value_or(result.engine);
+  result.partition = partition_of(in);
   return result;
 }
 

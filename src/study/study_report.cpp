@@ -81,6 +81,7 @@ std::string ReportBuilder::time_in_words() const {
 
 void ReportBuilder::add_view(const RenderedView& view, const StudyView& request) {
   rays_ += view.rays;
+  notes_.insert(notes_.end(), view.findings.begin(), view.findings.end());
   if (content_.view) return;  // the first one stands at the head of the report
   const Image8 picture = picture_of(view, request.show);
   content_.view =
@@ -179,6 +180,15 @@ std::string ReportBuilder::sun_path() const {
   return sun_path_svg(diagram);
 }
 
+std::string ReportBuilder::sky_in_words() const {
+  if (const auto& elements = lit_.source().elements) {
+    return "Skylight is summed over the elements of a partition of the sky (" +
+           elements->description() + "), each asked for in two directions.";
+  }
+  return "Skylight is summed over vertical slices of the sky; in each the skyline is found from "
+         "the model itself.";
+}
+
 std::vector<ReportFigure> ReportBuilder::figures() const {
   std::vector<ReportFigure> figures;
   figures.push_back({"Open field", lux_text(lit_.source().unobstructed_lux()), "lx", "",
@@ -221,12 +231,9 @@ ReportContent ReportBuilder::content() const {
   }
   content.sun_path_svg = sun_path();
   content.findings = findings();
-  content.method = {
-      "Sunlight comes from the solar disc, so that shadows have soft edges. Skylight is summed "
-      "over "
-      "vertical slices of the sky; in each the skyline is found from the model itself. Reflected "
-      "light follows paths of up to " +
-      std::to_string(study_.calculation.bounces) + " diffuse reflections."};
+  content.method = {"Sunlight comes from the solar disc, so that shadows have soft edges. " +
+                    sky_in_words() + " Reflected light follows paths of up to " +
+                    std::to_string(study_.calculation.bounces) + " diffuse reflections."};
   content.error_statement = fmt::format(
       "Every value carries a 95 % interval: the true value of the model as given lies inside it "
       "for "
@@ -255,11 +262,13 @@ Manifest ReportBuilder::manifest(const std::vector<std::filesystem::path>& files
   if (study_.scene.materials) manifest.inputs.push_back(manifest_input(*study_.scene.materials));
   for (const StudySensors& s : study_.sensors) manifest.inputs.push_back(manifest_input(s.file));
   const auto seed = static_cast<std::int64_t>(study_.calculation.seed);
+  const auto& elements = lit_.source().elements;
   manifest.settings = {{"time", time_text()},
                        {"sky", study_.sky.model},
                        {"tolerance_pct", study_.calculation.tolerance_percent},
                        {"bounces", std::int64_t{study_.calculation.bounces}},
                        {"engine", std::string("rays")},
+                       {"partition", elements ? elements->description() : "slices"},
                        {"seed", seed},
                        {"ground", study_.scene.ground},
                        {"crs", study_.scene.crs},
@@ -268,6 +277,7 @@ Manifest ReportBuilder::manifest(const std::vector<std::filesystem::path>& files
   manifest.versions = output_library_versions();
   manifest.results = {{"sensors", static_cast<std::int64_t>(sensors_)},
                       {"rays", static_cast<std::int64_t>(rays_)},
+                      {"elements", static_cast<std::int64_t>(lit_.source().element_count())},
                       {"out_of_tolerance", static_cast<std::int64_t>(out_of_tolerance_)},
                       {"horizontal_lux", lit_.source().unobstructed_lux()},
                       {"sky_description", lit_.sky().description}};

@@ -48,6 +48,7 @@ class ReportBuilder {
   };
   std::string place_in_words() const;
   std::string time_in_words() const;
+  std::string sky_in_words() const;
   std::vector<ReportFigure> figures() const;
 
   const Study& study_;

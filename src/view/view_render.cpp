@@ -1,19 +1,16 @@
 #include "view/view_render.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
 
 #include "core/parallel.h"
-#include "core/random.h"
 #include "view/shading_points.h"
 
 namespace tenku {
 namespace {
 
-constexpr int kBlock = 8;  // pixels a side that share reflected light on one surface
+constexpr double kBlock = 8.0;  // pixels a side that share reflected light on one surface
 
 /// Averages of skylight over the pixels around, on the same surface.
 void smooth_sky(const ShadingPoints& points, SensorIlluminance& light) {
@@ -30,68 +27,19 @@ void smooth_sky(const ShadingPoints& points, SensorIlluminance& light) {
   });
 }
 
-/// One shading point of every surface in every block of pixels.
-std::vector<std::size_t> block_representatives(const ShadingPoints& points) {
-  std::unordered_map<std::uint64_t, bool> taken;
-  std::vector<std::size_t> chosen;
+/// Blocks of pixels are the cells in which the points of one surface share reflected light.
+SharingLayout sharing_by_pixels(const ShadingPoints& points) {
+  SharingLayout layout;
   for (std::size_t i = 0; i < points.sensors.size(); ++i) {
     const auto [column, row] = points.pixel(i);
-    const auto block = static_cast<std::uint64_t>(row / kBlock) << 32U |
-                       static_cast<std::uint64_t>(column / kBlock);
-    if (taken.emplace(mix_bits(points.surface[i] + mix_bits(block)), true).second) {
-      chosen.push_back(i);
-    }
+    layout.place.push_back({column / kBlock, row / kBlock, 0.0});
   }
-  return chosen;
+  layout.surface = points.surface;
+  layout.reach = 2;
+  layout.must_see = false;
+  layout.is_measured = false;  // over 8 pixels it would tell of far more than a pixel misses
+  return layout;
 }
-
-/// Reflected light of all shading points from that of the representatives.
-class ReflectedBlend {
- public:
-  ReflectedBlend(const ShadingPoints& points, const std::vector<std::size_t>& chosen,
-                 const SensorIlluminance& light)
-      : points_(points) {
-    for (std::size_t k = 0; k < chosen.size(); ++k) {
-      const auto [column, row] = points.pixel(chosen[k]);
-      block_[key(points.surface[chosen[k]], column / kBlock, row / kBlock)] = {
-          light.reflected_lux[k], light.error_lux[k], column, row};
-    }
-  }
-
-  struct Value {
-    double lux = 0.0, error_lux = 0.0;
-  };
-  Value at(std::size_t i) const {
-    const auto [column, row] = points_.pixel(i);
-    double sum = 0.0, error = 0.0, weight = 0.0;
-    for (int dy = -2; dy <= 2; ++dy) {
-      for (int dx = -2; dx <= 2; ++dx) {
-        const auto found =
-            block_.find(key(points_.surface[i], column / kBlock + dx, row / kBlock + dy));
-        if (found == block_.end()) continue;
-        const Sample& s = found->second;
-        const double away = std::hypot(s.column - column, s.row - row) / (2.0 * kBlock);
-        const double w = std::exp(-away * away) + 1e-6;
-        sum += w * s.lux;
-        error += w * s.error_lux;
-        weight += w;
-      }
-    }
-    return weight > 0.0 ? Value{sum / weight, error / weight} : Value{};
-  }
-
- private:
-  struct Sample {
-    double lux, error_lux;
-    int column, row;
-  };
-  static std::uint64_t key(std::uint64_t surface, int column, int row) {
-    return mix_bits(surface + mix_bits(static_cast<std::uint64_t>(row + 8) << 32U |
-                                       static_cast<std::uint64_t>(column + 8)));
-  }
-  const ShadingPoints& points_;
-  std::unordered_map<std::uint64_t, Sample> block_;
-};
 
 IlluminanceOptions options_of(const ViewRequest& request) {
   IlluminanceOptions options;
@@ -103,36 +51,27 @@ IlluminanceOptions options_of(const ViewRequest& request) {
   return options;
 }
 
-std::uint64_t add_reflected(const ViewRequest& request, const ShadingPoints& points,
-                            const RayVisibility& rays, const DaylightSource& source,
-                            SensorIlluminance& light, Progress& progress) {
-  const std::vector<std::size_t> chosen = block_representatives(points);
-  Sensors sensors;
-  IlluminanceOptions::KnownDirect direct;
-  for (const std::size_t i : chosen) {
-    sensors.position.push_back(points.sensors.position[i]);
-    sensors.normal.push_back(points.sensors.normal[i]);
-    direct.lux.push_back(light.sun_lux[i] + light.sky_lux[i]);
-    direct.sky_view.push_back(light.sky_view[i]);
-  }
-  IlluminanceOptions options = options_of(request);
-  options.bounces = request.bounces;
-  options.known_direct = &direct;
-  // Some twenty representatives are blended in a pixel.
-  const IlluminanceResult reflected = illuminate(sensors, rays, source, options, progress);
-  const ReflectedBlend blend(points, chosen, reflected.values);
-  for (std::size_t i = 0; i < points.sensors.size(); ++i) {
-    const auto [lux, error_lux] = blend.at(i);
-    light.reflected_lux[i] = lux;
-    light.error_lux[i] = std::hypot(light.error_lux[i], error_lux);
-  }
-  return reflected.rays;
-}
-
 /// The sky, and beyond the edge of the scene an open ground of the usual reflectance.
 Backdrop backdrop_of(const DaylightSource& source, const SkyModel* sky) {
   constexpr double kGroundReflectance = 0.2;  // as gensky and most codes take it
   return {sky, Rgb::grey(kGroundReflectance * source.unobstructed_lux() / kPi)};
+}
+
+/// Counts the pixels with points out of tolerance, and says so.
+void tell_missed(const ShadingPoints& points, const std::vector<std::uint8_t>& missed,
+                 RenderedView& result) {
+  std::size_t& count = result.out_of_tolerance;
+  for (std::size_t p = 0; p < points.background.size(); ++p) {
+    const auto begin = missed.begin() + points.first[p], end = missed.begin() + points.first[p + 1];
+    count += std::find(begin, end, std::uint8_t{1}) != end;
+  }
+  if (count == 0) return;
+  Finding finding;
+  finding.code = "tolerance_not_reached";
+  finding.what = "pixels met the limit of effort before the tolerance";
+  finding.repair = "a higher tolerance, or take them as they are";
+  finding.count = count;
+  result.findings.push_back(std::move(finding));
 }
 
 void compose(const ShadingPoints& points, const SensorIlluminance& light,
@@ -173,12 +112,17 @@ RenderedView render_view(const ViewRequest& request, const RayVisibility& rays,
       find_shading_points(camera, rays, backdrop_of(source, sky), progress);
   IlluminanceResult light = illuminate(points.sensors, rays, source, options_of(request), progress);
   smooth_sky(points, light.values);
+  if (request.bounces > 0 && points.sensors.size() > 0) {
+    IlluminanceOptions options = options_of(request);
+    options.bounces = request.bounces;
+    // Some twenty representatives are blended in a pixel.
+    const ReflectedSharing sharing(points.sensors, sharing_by_pixels(points));
+    add_shared_reflection(sharing, rays, source, options, progress, light);
+  }
   RenderedView result;
   result.luminance = Image(camera.width(), camera.height());
   result.rays = points.rays + light.rays;
-  if (request.bounces > 0 && points.sensors.size() > 0) {
-    result.rays += add_reflected(request, points, rays, source, light.values, progress);
-  }
+  tell_missed(points, light.is_missed, result);
   compose(points, light.values, rays.materials(), result);
   return result;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/finding.h"
 #include "core/progress.h"
 #include "illuminance/illuminate.h"
 #include "sky_models/sky_model.h"
@@ -23,7 +24,7 @@ struct ViewRequest {
 ///
 /// Every pixel is four rays; those that meet the same surface share one sensor. Direct light is
 /// found for each sensor; reflected light, which varies slowly, for one sensor in a block of
-/// pixels on the same surface, and is blended between neighbours. Skylight is averaged with the
+/// pixels on the same surface, and is shared (ReflectedSharing). Skylight is averaged with the
 /// nearest pixels on the same surface.
 ///
 /// Shape    every array [row][column], row 0 at the top.
@@ -33,6 +34,8 @@ struct RenderedView {
   Image luminance;                                 ///< linear RGB, cd/m2, the sky behind
   std::vector<double> illuminance_lux, error_lux;  ///< NaN where the sky is seen
   std::uint64_t rays = 0;
+  std::size_t out_of_tolerance = 0;  ///< pixels for which the limit of effort came first
+  std::vector<Finding> findings;
   double error_mean = 0.0;  ///< mean of error_lux over the pixels that have one
 };
 

@@ -243,5 +243,69 @@ TEST(Contract, AToleranceThatIsNotReachedIsExitThreeWithAResult) {
   EXPECT_GT(json::parse(run.out)["out_of_tolerance"].get<int>(), 0);
 }
 
+TEST(Contract, AViewThatMissesItsToleranceIsExitThreeAndTellsHowManyPixels) {
+  const fs::path folder = test_folder();
+  write_box_scene(folder);
+  const auto run = run_tenku(
+      "render box.obj --size 6x4 --bounces 0 --tolerance 1e-7 --out o.png --json" + kSky, folder);
+  EXPECT_EQ(run.exit_code, 3) << run.err;
+  EXPECT_TRUE(fs::exists(folder / "o.png"));
+  const auto missed = json::parse(run.out)["out_of_tolerance"].get<std::size_t>();
+  EXPECT_GT(missed, 0u);
+  EXPECT_LE(missed, 24u);
+  EXPECT_NE(run.err.find(std::to_string(missed) + " x tolerance_not_reached: pixels"),
+            std::string::npos)
+      << run.err;
+}
+
+TEST(Contract, AStudyOfSurfacesThatAreNotThereFailsBeforeTheViews) {
+  const fs::path folder = test_folder();
+  write_box_scene(folder);
+  write_text(folder / "s.toml", "[scene]\nfile = \"box.obj\"\n" + kSun +
+                                    "[[illuminance]]\nsurfaces = [\"windows\"]\n");
+  const auto run = run_tenku("run s.toml --out results", folder);
+  EXPECT_EQ(run.exit_code, 2) << run.err;
+  EXPECT_NE(run.err.find("no surfaces"), std::string::npos) << run.err;
+  EXPECT_FALSE(fs::exists(folder / "results/view.png"));
+}
+
+TEST(Elements, OfTheSkyAreTakenByEveryCommandThatLights) {
+  const fs::path folder = test_folder();
+  write_box_scene(folder);
+  const auto lux = run_tenku(
+      "illuminance box.obj --sensors open.pts --bounces 0 --elements 300 --out o.csv --json" + kSky,
+      folder);
+  ASSERT_EQ(lux.exit_code, 0) << lux.err;
+  EXPECT_EQ(json::parse(lux.out)["elements"], 300);
+  // A box of 2 m, 10 m away, hides little of a sky of 10,000 lx.
+  EXPECT_NEAR(ReferenceTable((folder / "o.csv").string()).number(0, "sky_lux"), 10000.0, 100.0);
+  const auto view = run_tenku(
+      "render box.obj --size 16x16 --tolerance 100 --partition tregenza --out o.png --json" + kSky,
+      folder);
+  EXPECT_EQ(json::parse(view.out)["elements"], 145) << view.err;
+  write_text(folder / "s.toml",
+             "[scene]\nfile = \"box.obj\"\n[calculation]\nelements = 64\n"
+             "tolerance_percent = 100\n[[sensors]]\nfile = \"open.pts\"\n"
+             "[report]\n[sun]\naltitude_deg = 40\nazimuth_deg = 180\n");
+  const auto study = run_tenku("run s.toml --out results", folder);
+  ASSERT_EQ(study.exit_code, 0) << study.err;
+  const json manifest = json::parse(contents_of(folder / "results/manifest.json"));
+  EXPECT_EQ(manifest["results"]["elements"], 64);
+  EXPECT_EQ(manifest["settings"]["partition"], "adaptive, 64 elements");
+  EXPECT_NE(contents_of(folder / "results/report.html").find("adaptive, 64 elements"),
+            std::string::npos);
+}
+
+TEST(Elements, TooFewForTheToleranceAreExitThree) {
+  const fs::path folder = test_folder();
+  write_box_scene(folder);
+  write_text(folder / "near.pts", "1.2 0.1 0 0 0 1\n");
+  const auto run = run_tenku(
+      "illuminance box.obj --sensors near.pts --elements 20 --out o.csv --json" + kSky, folder);
+  EXPECT_EQ(run.exit_code, 3) << run.err;
+  EXPECT_EQ(json::parse(run.out)["out_of_tolerance"], 1);
+  EXPECT_TRUE(fs::exists(folder / "o.csv"));
+}
+
 }  // namespace
 }  // namespace tenku

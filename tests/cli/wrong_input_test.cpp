@@ -172,6 +172,15 @@ TEST(WrongInput, CalculationOptionsOutOfRangeAreRefused) {
   const std::string base = "illuminance box.obj --out o.csv" + kSky;
   const std::string points = base + " --sensors open.pts";
   expect_refused({{points + " --tolerance 0", "tolerance 0"},
+                  {points + " --elements 0", "elements 0"},
+                  {points + " --elements many", "elements"},
+                  {points + " --energy-threshold 0", "energy threshold 0"},
+                  {points + " --energy-threshold nan", "energy threshold nan"},
+                  {points + " --partition square", "square"},
+                  {points + " --partition reinhart:9", "reinhart:9"},
+                  {points + " --partition tregenza --elements 9", "their own count"},
+                  {points + " --elements 9 --energy-threshold 9", "not two"},
+                  {"render box.obj --out o.png --elements 0" + kSky, "elements 0"},
                   {points + " --tolerance -1", "tolerance -1"},
                   {points + " --tolerance nan", "tolerance nan"},
                   {points + " --tolerance 101", "tolerance 101"},

@@ -50,7 +50,7 @@ TEST(TableWriter, IlluminanceHasTheContractsColumns) {
 }
 
 TEST(SensorFile, ReadsWhatRadianceUsersHave) {
-  const SensorPoints sensors = sensors_from_text(
+  const Sensors sensors = sensors_from_text(
       "\xef\xbb\xbf# grid\r\n\r\n1 2 3 0 0 1\r\n\t4\t5.5\t-6e1 +1 0 0  # east\n   \n7 8 9 0 -2 0",
       "f");
   ASSERT_EQ(sensors.size(), 3U);

@@ -53,6 +53,31 @@ TEST(Materials, MostSpecificNameWins) {
   EXPECT_EQ(reflectance(read_with(by_object), 2), 0.11);
 }
 
+// An object with a wall and a window, and one that is a window.
+TEST(Materials, AnObjectsNameLeavesItsWindows) {
+  const auto read_windows = [](const std::string& toml) {
+    const TemporaryFolder folder;
+    ReadOptions options;
+    options.materials = folder.write("materials.toml", toml);
+    return read(folder.write("a.obj",
+                             "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+                             "o house\nusemtl wall\nf 1 2 3\nusemtl window\nf 1 3 4\n"
+                             "usemtl pane\nf 2 3 4\no shutter\nusemtl window\nf 1 2 4\n"),
+                options);
+  };
+  const std::string panes = "[window]\nreflectance = 0.11\n[pane]\nindex = 1.52\n";
+  const Scene painted =
+      read_windows(panes + "[house]\nreflectance = 0.44\n[shutter]\nreflectance = 0.55\n");
+  EXPECT_EQ(reflectance(painted, 0), 0.44);
+  EXPECT_EQ(reflectance(painted, 1), 0.11);
+  EXPECT_TRUE(painted.materials[painted.surfaces.material[2]].is_glass());
+  EXPECT_EQ(reflectance(painted, 3), 0.55);
+  const Scene glazed = read_windows(panes + "[house]\ntransmittance = 0.7\n");
+  for (std::size_t s = 0; s < 3; ++s) {
+    EXPECT_EQ(glazed.materials[glazed.surfaces.material[s]].transmittance, 0.7) << s;
+  }
+}
+
 TEST(Materials, AllKeysAreRead) {
   const Scene scene = read_with(
       "[plaster]\nreflectance = [0.1, 0.2, 0.3]\nmirror = 0.9\nindex = 1.52\n"

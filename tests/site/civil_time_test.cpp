@@ -86,7 +86,19 @@ TEST(CivilTime, DayOfYearCountsLeapDays) {
   EXPECT_EQ(day_of_year(parse_time("2023-03-01T12:00Z").instant), 60);
 }
 
-// The reference's values are a smooth fit of its own before 1973, and predictions from 2023.
+// Naval Observatory to 1972, IERS from 1973: the values of 1 January.
+TEST(TimeScales, DeltaTAtNewYearIsTheObservedOne) {
+  const testing_support::ReferenceTable t(TENKU_TEST_REFERENCE "/sun/delta_t.csv");
+  testing_support::WorstError worst("delta_t_new_year_1950_2026_s");
+  ASSERT_EQ(t.size(), 77u);
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const double new_year = 2451544.5 + 365.25 * (t.number(i, "year") - 2000.0);  // to a day
+    worst.add(delta_t_seconds(new_year) - t.number(i, "delta_t_s"), t.text(i, "year"));
+  }
+  EXPECT_LT(worst.worst(), 0.0051);  // rounded to 0.01 s
+}
+
+// This reference has a smooth fit of its own before 1973, and predictions from 2023.
 TEST(TimeScales, DeltaTIsTheObservedOne) {
   const testing_support::ReferenceTable t(TENKU_TEST_REFERENCE "/sun/positions.csv");
   testing_support::WorstError early("delta_t_1950_1972_s"), observed("delta_t_1973_2022_s"),

@@ -11,6 +11,8 @@
 #include "sky_models/image_sky.h"
 #include "sky_models/sky_level.h"
 #include "sky_models/sky_name.h"
+#include "support/measured.h"
+#include "support/reference_table.h"
 
 namespace tenku {
 namespace {
@@ -103,6 +105,35 @@ TEST(MakeSky, ClearSkiesAreAsBrightAsClearSkies) {
   EXPECT_LT(sky.horizontal_diffuse_lux, 20000.0);
   EXPECT_GT(sky.sun.normal_illuminance.value(), 80000.0);
   EXPECT_LT(sky.sun.normal_illuminance.value(), 105000.0);
+}
+
+// Table 2 of Darula and Kittler 2002 as other programs carry it, A = A1 Tv + A2 rounded to 0.01;
+// the ratio of zenith luminance to horizontal illuminance from quadrature.
+TEST(MakeSky, LevelsAreThoseOfThePublishedTable) {
+  const testing_support::ReferenceTable levels(TENKU_TEST_REFERENCE "/sky/cie_levels.csv");
+  const testing_support::ReferenceTable integrals(TENKU_TEST_REFERENCE "/sky/cie_integrals.csv");
+  testing_support::WorstError zenith("level_zenith_7_15"), diffuse("level_diffuse_1_6");
+  for (std::size_t i = 0; i < integrals.size(); ++i) {
+    const double altitude = integrals.number(i, "sun_alt_deg");
+    if (integrals.text(i, "quantity") != "Lz_over_Ehd_per_sr" || altitude > 75.0) continue;
+    const auto type = static_cast<int>(integrals.number(i, "sky_type"));
+    if (type > 15) continue;  // the traditional overcast sky
+    const auto of = [&](const char* name) {
+      return levels.number(static_cast<std::size_t>(type) - 1, name);
+    };
+    const double lux = cie_sky_level(type, Angle::degrees(altitude)).horizontal_diffuse.value();
+    const double s = std::sin(altitude * kPi / 180.0), c = std::cos(altitude * kPi / 180.0);
+    if (type <= 6) {
+      diffuse.add(lux / (133800.0 * s * of("diffuse_ratio")) - 1.0, std::to_string(type));
+      continue;
+    }
+    const double kcd = of("a") * s +
+                       0.7 * (of("turbidity") + 1.0) * std::pow(s, of("c")) / std::pow(c, of("d")) +
+                       0.04 * of("turbidity");
+    zenith.add(lux * integrals.number(i, "value") / (1000.0 * kcd) - 1.0, std::to_string(type));
+  }
+  EXPECT_LT(diffuse.worst(), 1e-12);
+  EXPECT_LT(zenith.worst(), 0.002);  // A is rounded to 0.01, of 3.3 at least
 }
 
 TEST(MakeSky, LevelsAreSmoothUpToTheZenith) {

@@ -97,6 +97,8 @@ tolerance_percent = 0.5
 bounces = 0
 seed = 42
 engine = "rays"
+partition = "uniform"
+elements = 300
 [[view]]
 name = "a"
 eye = [-73300, -104030.5, 60]
@@ -146,6 +148,9 @@ sun_path = false
   EXPECT_EQ(study.calculation.bounces, 0);
   EXPECT_EQ(study.calculation.seed, 42U);
   EXPECT_EQ(study.calculation.engine, "rays");
+  ASSERT_TRUE(study.calculation.partition);
+  EXPECT_EQ(study.calculation.partition->method, PartitionMethod::Uniform);
+  EXPECT_EQ(study.calculation.partition->elements, 300U);
   ASSERT_EQ(study.views.size(), 2U);
   EXPECT_EQ(study.views[0].eye, (Vec3{-73300, -104030.5, 60}));
   EXPECT_EQ(study.views[0].target, (Vec3{-73300, -104000, 20}));
@@ -191,6 +196,11 @@ TEST_F(StudyReader, RefusesValuesOutOfRangeWithTheirLine) {
       {"[calculation]\nbounces = 2.5\n", "6: bounces in [calculation] must be a whole number"},
       {"[calculation]\nbounces = -1\n", "6: bounces in [calculation] is -1"},
       {"[calculation]\nseed = -1\n", "6: seed in [calculation] is -1"},
+      {"[calculation]\npartition = \"square\"\n", "6: partition 'square' is unknown"},
+      {"[calculation]\nelements = 0\n", "6: elements in [calculation] is 0"},
+      {"[calculation]\nenergy_threshold_lx = 0\n", "6: energy_threshold_lx in [calculation] is 0"},
+      {"[calculation]\nelements = 9\nenergy_threshold_lx = 1\n", "6: sky elements: give a count"},
+      {"[calculation]\nelements = 9\npartition = \"tregenza\"\n", "7: the tregenza and reinhart"},
       {"[site]\nlatitude_deg = 91\nlongitude_deg = 0\n", "6: latitude_deg in [site] is 91"},
       {"[site]\nlatitude_deg = 9\n", "5: [site] needs latitude_deg and longitude_deg"},
       {"[sun]\nazimuth_deg = 9\n", "6: azimuth_deg needs altitude_deg beside it"},
