@@ -64,7 +64,7 @@ class SensorWork {
   bool finish(const ErrorBudget& budget) {
     if (known_direct_ < 0.0) {
       sun_.refine();
-      see_sky();
+      see_sky(budget);
     }
     if (reflected_) {
       reflected_->set_way(ReflectedLight::way_for(options_.known_direct
@@ -92,14 +92,14 @@ class SensorWork {
   }
 
  private:
-  void see_sky() {
+  void see_sky(const ErrorBudget& budget) {
     if (elements_ != nullptr) {
       by_elements_ = elements_->light(rays_, at_.position() + rays_.lift_m() * at_.normal(),
                                       at_.normal(), SampleRandom(options_.seed, at_.index, 0));
       return;
     }
     do {
-      sky_.refine();
+      sky_.refine(budget.allowed_variance(total()));
     } while (sky_.may_miss_openings() && sky_.slices() * options_.tolerance_pct < kSureOfDark);
   }
 

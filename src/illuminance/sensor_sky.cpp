@@ -43,7 +43,7 @@ SensorSky::SensorSky(const RayVisibility& rays, const SkyTable* table, Vec3 posi
                      SampleRandom random)
     : SensorSky(rays, table, position, normal, random, Effort{}) {}
 
-void SensorSky::refine() {
+void SensorSky::refine(double enough) {
   if (is_filled_ || (is_outlined_ && has_sure_claims())) {
     fill_gaps();
   } else {
@@ -51,7 +51,7 @@ void SensorSky::refine() {
     double_evenly();
     if (tracer_.floating() > known && traced_again_ < kMostAgain) trace_again();
   }
-  summarise();
+  summarise(enough);
 }
 
 /// Checks have met things that float: the slices made before did not know them. What the checks
@@ -341,12 +341,13 @@ SensorSky::Sum SensorSky::outlined_sum() const {
   return sum;
 }
 
-void SensorSky::summarise() {
+void SensorSky::summarise(double enough) {
   seeing_ = static_cast<int>(
       std::count_if(entry_.begin(), entry_.end(), [](const Entry& e) { return e.slice.is_open; }));
   Sum sum;
   if (!is_outlined_) sum = even_sum();
-  if (effort_.outlined && seeing_ >= kSeeing && slices() >= kFewest) {
+  const bool is_enough = !is_outlined_ && sum.variance + checks_.lux_squared <= enough;
+  if (effort_.outlined && !is_enough && seeing_ >= kSeeing && slices() >= kFewest) {
     learn(is_outlined_ ? lux_ : sum.light.lux);
     is_outlined_ = is_outlined_ || outlines_tell();
   }

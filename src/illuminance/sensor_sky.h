@@ -27,8 +27,8 @@ namespace tenku {
 ///            unknown place gives sum(r^2) = h^2/2 and an error uniform in [-wh/2, wh/2]; to it
 ///            each slice within the scatter s of the step adds its chance to lie on either side:
 ///            variance w^2 r^2 (1/6 + s/3w). Where outlines go on, kinks of slope change c
-///            give sum(r^2) = (wc)^2 / 6 and an error of variance w^4 c^2 / 720, that is w^2 r^2 / 120.
-///            The first slices are odd in number, so that what recurs after 90 or 180 degrees
+///            give sum(r^2) = (wc)^2 / 6 and an error of variance w^4 c^2 / 720, that is w^2 r^2 /
+///            120. The first slices are odd in number, so that what recurs after 90 or 180 degrees
 ///            (courts; the horizon of a wall's own plane) lies in different parts of the gaps; each
 ///            azimuth is moved at random by up to +-s/2, so that smooth parts err by a known size;
 ///          holes: the sky in them lies a share p up from the line between their ends to the open
@@ -36,9 +36,9 @@ namespace tenku {
 ///          unknown things: one of width a and height h, met by no slice (probability 1 - a/w), is
 ///            an error of ah; a slice met it and its neighbours did not foretell it (if a < 2w)
 ///            with probability a/w. For widths spread evenly over 0..2w the errors squared
-///            come to w^2 h^2 / 24 and r^2 to 3 h^2 / 4. Taken is w^2 r^2 / 3, six times as much, as
-///            things much thinner than w need; r^2 the mean over all tests, or a gap's own
-///            where greater. kPriorTests imagined tests that failed stand in for those not made;
+///            come to w^2 h^2 / 24 and r^2 to 3 h^2 / 4. Taken is w^2 r^2 / 3, six times as much,
+///            as things much thinner than w need; r^2 the mean over all tests, or a gap's own where
+///            greater. kPriorTests imagined tests that failed stand in for those not made;
 ///          what they take away: kMissed of the mean test (smooth change: 1/6, thin things: 1;
 ///            measured in towns: 0.3 to 0.5), with a third of that as error, the less the
 ///            fewer tests have failed;
@@ -61,9 +61,9 @@ class SensorSky {
   SensorSky(const RayVisibility& rays, const SkyTable* table, Vec3 position, Vec3 normal,
             SampleRandom random);
 
-  /// Adds slices: as many as there are, or those that halving needs (the first call makes the
-  /// first).
-  void refine();
+  /// Adds slices: as many as there are, or where most is unknown (the first call makes the first).
+  /// @param enough  variance (lux^2) that needs no better method than even slices
+  void refine(double enough = 0.0);
 
   double lux() const { return lux_ > 0.0 ? lux_ : 0.0; }
   /// The same before it is kept from falling below zero: unbiased.
@@ -146,7 +146,7 @@ class SensorSky {
   Sum even_sum() const;
   bool outlines_tell() const;
   Sum outlined_sum() const;
-  void summarise();
+  void summarise(double enough);
 
   SensorSight sight_;
   SampleRandom random_;

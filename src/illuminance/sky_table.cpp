@@ -17,6 +17,8 @@ constexpr std::array<double, 4> kNode{-0.8611363115940526, -0.3399810435848563, 
 constexpr std::array<double, 4> kWeight{0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
                                         0.3478548451374538};
 
+constexpr float kSame = 1e-6F;  // of the largest value of a column
+
 /// Cubic through (0, p0) and (1, p1) with slopes m0, m1 per unit.
 double hermite(double t, double p0, double m0, double p1, double m1) {
   const double t2 = t * t, t3 = t2 * t;
@@ -39,7 +41,19 @@ SkyTable::SkyTable(const SkyModel& sky)
   parallel_for(static_cast<std::size_t>(columns_), 8, [&](IndexRange range) {
     for (std::size_t c = range.begin; c < range.end; ++c) fill_column(sky, static_cast<int>(c));
   });
+  drop_equal_columns();
   horizontal_lux_ = unobstructed_lux(kZenith);
+}
+
+/// A sky that is the same all round needs one column, which stays in the cache.
+void SkyTable::drop_equal_columns() {
+  const std::size_t pitch = static_cast<std::size_t>(rows_ + 1) * kNodeFloats;
+  const float largest = *std::max_element(node_.begin(), node_.begin() + static_cast<long>(pitch));
+  for (std::size_t k = pitch; k < node_.size(); ++k) {
+    if (!(std::abs(node_[k] - node_[k % pitch]) <= kSame * largest)) return;
+  }
+  node_.resize(pitch);
+  columns_ = 1;
 }
 
 void SkyTable::fill_column(const SkyModel& sky, int column) {
@@ -118,7 +132,7 @@ SkyTable::Column::Row SkyTable::Column::row_reaching(double wanted, double h, do
 
 double SkyTable::unobstructed_lux(Vec3 normal) const {
   // Between the columns the table is linear, so a few points a column sum it up well.
-  const int slices = 2 * columns_;
+  const int slices = std::max(720, 2 * columns_);
   double sum = 0.0;
   for (int k = 0; k < slices; ++k) {
     const double azimuth = 2.0 * kPi * (k + 0.5) / slices;

@@ -59,10 +59,11 @@ class SkyTable {
   static constexpr int kNodeFloats = 4;  // along, its slope, up, its slope
 
   void fill_column(const SkyModel& sky, int column);
+  void drop_equal_columns();
 
   int columns_, rows_;
   double row_rad_;
-  std::vector<float> node_;  ///< [column][row][4]
+  std::vector<float> node_;  ///< [column][row][4]; one column if all are alike
   double horizontal_lux_ = 0.0;
 };
 
@@ -71,6 +72,5 @@ struct FrontRange {
   double low, high;  ///< low >= high: nothing
 };
 FrontRange front_range(double normal_along, double normal_up);
-
 
 }  // namespace tenku
