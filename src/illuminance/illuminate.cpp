@@ -17,8 +17,9 @@
 namespace tenku {
 namespace {
 
-constexpr std::size_t kGrain = 16;     // sensors a task
-constexpr double kSureOfDark = 512.0;  // slices times tolerance after which no sky is believed
+constexpr std::size_t kGrain = 16;      // sensors a task
+constexpr double kSureOfDark = 512.0;   // slices times tolerance after which no sky is believed
+constexpr int kMostSharedPaths = 2048;  // more would know one place better than those around it
 constexpr double kBlended =
     2.5;  // errors of about nine blended representatives in one of their mean
 
@@ -165,6 +166,7 @@ IlluminanceResult illuminate_sharing(const Sensors& sensors, const RayVisibility
   IlluminanceOptions reflected = options;
   reflected.floor_share = 0.01;  // what is shared is not exact to that in any case
   reflected.tolerance_pct = std::min(100.0, kBlended * options.tolerance_pct);
+  reflected.most_paths = std::min(options.most_paths, kMostSharedPaths);
   add_shared_reflection(sharing, rays, source, reflected, progress, result);
   return result;
 }

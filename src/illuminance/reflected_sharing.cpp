@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kNormalSteps = 50.0;  // of a normal's component that counts as one plane
 constexpr double kOffsetSteps = 2.0;   // a metre
+constexpr double kFacingSteps = 4.0;   // of a normal's component that counts as one way
+constexpr double kWideCell_m = 50.0;   // beyond, a cell holds many surfaces
 constexpr double k95 = 1.96;           // standard errors in an interval
 
 bool is_flat_normal(Vec3 normal) { return std::abs(normal.z) > 0.9; }
@@ -31,11 +33,21 @@ std::uint64_t plane_of(Vec3 n, Vec3 p) {
 
 }  // namespace
 
+std::uint64_t facing(Vec3 normal) {
+  std::uint64_t key = 0;
+  for (const double part : {normal.x, normal.y, normal.z}) {
+    key = mix_bits(key + static_cast<std::uint64_t>(std::llround(kFacingSteps * part)));
+  }
+  return key;
+}
+
 SharingLayout sharing_by_distance(const Sensors& sensors, double distance_m) {
   SharingLayout layout;
   for (std::size_t s = 0; s < sensors.size(); ++s) {
     layout.place.push_back((1.0 / distance_m) * sensors.position[s]);
-    layout.surface.push_back(plane_of(sensors.normal[s], sensors.position[s]));
+    layout.surface.push_back(distance_m > kWideCell_m
+                                 ? facing(sensors.normal[s])
+                                 : plane_of(sensors.normal[s], sensors.position[s]));
   }
   return layout;
 }

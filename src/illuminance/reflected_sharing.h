@@ -19,7 +19,10 @@ struct SharingLayout {
   bool is_measured = true;             ///< whether the error of sharing is measured
 };
 
-/// Sensors in one plane, in cubes with sides of `distance_m`.
+/// Equal for surfaces that face about the same way: what shares where a cell holds many surfaces.
+std::uint64_t facing(Vec3 normal);
+
+/// Sensors in one plane, in cubes with sides of `distance_m`; in wide ones those that face one way.
 SharingLayout sharing_by_distance(const Sensors& sensors, double distance_m);
 
 /// Sensors that share reflected light, which varies slowly over a surface.

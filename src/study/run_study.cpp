@@ -1,5 +1,7 @@
 #include "study/run_study.h"
 
+#include <fmt/format.h>
+
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "illuminance/illuminate.h"
@@ -20,6 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kWiden = 1.5;  // the spacing, as long as there are too many sensors
+constexpr double kWidest_m = 1000.0;
 constexpr double kShare = 4.0;  // spacings over which sensors on a surface share reflected light
 
 ReadOptions read_options_of(const StudyScene& scene) {
@@ -87,21 +91,38 @@ class StudyRun {
     report_.add_view(picture, view);
   }
 
+  /// Sensors of a field, and how far apart they are.
+  struct PlacedField {
+    SensorGrid grid;
+    double spacing_m;
+  };
+
   /// Sensors of each field, which may not exist: before the long work.
-  std::vector<SensorGrid> place_sensors() const {
-    std::vector<SensorGrid> grids;
+  std::vector<PlacedField> place_sensors() {
+    std::vector<PlacedField> placed;
     for (const StudyField& field : study_.fields) {
-      grids.push_back(lit_.grid(field.surfaces, field.spacing_m));
+      double spacing = field.spacing_m;
+      SensorGrid grid = lit_.grid(field.surfaces, spacing);
+      while (grid.sensors.size() > field.most_sensors && spacing < kWidest_m) {
+        spacing *= kWiden;
+        grid = lit_.grid(field.surfaces, spacing);
+      }
+      if (spacing > field.spacing_m) {
+        report_.note(fmt::format(
+            "the sensors of '{}' are {:.3g} m apart, not {:.3g} m, which would be over {} of them",
+            field.name, spacing, field.spacing_m, field.most_sensors));
+      }
+      placed.push_back({std::move(grid), spacing});
     }
-    return grids;
+    return placed;
   }
 
-  void illuminate_surfaces(const StudyField& field, const SensorGrid& grid) {
-    const IlluminanceResult result = light(grid.sensors, kShare * field.spacing_m);
-    FieldMesh mesh = field_of_grid(lit_, grid, result.values);
+  void illuminate_surfaces(const StudyField& field, const PlacedField& placed) {
+    const IlluminanceResult result = light(placed.grid.sensors, kShare * placed.spacing_m);
+    FieldMesh mesh = field_of_grid(lit_, placed.grid, result.values);
     mesh.texts.push_back({"time", {report_.time_text()}});
     write_vtp(place(field.name + ".vtp"), mesh);
-    report_.add_field(grid, result.values);
+    report_.add_field(placed.grid, result.values);
   }
 
   void illuminate_sensors(const StudySensors& sensors) {
@@ -177,7 +198,7 @@ StudyOutcome run_study(const Study& study, const fs::path& folder, Progress& pro
     throw InputError("cannot make the folder " + folder.string() + ": " + error.message());
   }
   StudyRun run(study, folder, progress);  // reads the scene, places the sun, makes the sky
-  const std::vector<SensorGrid> grids = run.place_sensors();
+  const auto grids = run.place_sensors();
   for (const StudyView& view : study.views) run.render(view);
   for (std::size_t i = 0; i < grids.size(); ++i) run.illuminate_surfaces(study.fields[i], grids[i]);
   for (const StudySensors& sensors : study.sensors) run.illuminate_sensors(sensors);

@@ -66,6 +66,7 @@ struct StudyField {
   std::string name;
   std::vector<std::string> surfaces{"ground", "roofs", "walls"};
   double spacing_m = 2.0;
+  std::size_t most_sensors = 5'000'000;  ///< beyond, the spacing is widened
 };
 
 /// Illuminance at sensors from a file.

@@ -33,7 +33,7 @@ const std::vector<KnownTable>& known_tables() {
        {"tolerance_percent", "bounces", "seed", "engine", "partition", "elements",
         "energy_threshold_lx"}},
       {"view", {"name", "eye", "target", "fov_deg", "size", "show", "files"}},
-      {"illuminance", {"name", "surfaces", "spacing_m"}},
+      {"illuminance", {"name", "surfaces", "spacing_m", "most_sensors"}},
       {"sensors", {"name", "file"}},
       {"plan", {"spacing_m", "lowest_lx", "highest_lx"}},
       {"report", {"title", "author", "sun_path"}},
@@ -215,6 +215,9 @@ StudyField field_of(const TomlSection& in, std::set<std::string>& taken) {
   field.name = name_of(in, "illuminance", taken);
   field.surfaces = in.choice_list("surfaces", kSurfaces).value_or(field.surfaces);
   field.spacing_m = in.number("spacing_m", {0.01, 1000.0}).value_or(field.spacing_m);
+  if (const auto most = in.number("most_sensors", {100.0, 5e7})) {
+    field.most_sensors = static_cast<std::size_t>(*most);
+  }
   return field;
 }
 

@@ -10,7 +10,8 @@
 namespace tenku {
 namespace {
 
-constexpr double kBlock = 8.0;  // pixels a side that share reflected light on one surface
+constexpr double kBlock = 8.0;       // pixels a side that share reflected light on one surface
+constexpr double kFarBlock_m = 5.0;  // width of a block beyond which surfaces share
 
 /// Averages of skylight over the pixels around, on the same surface.
 void smooth_sky(const ShadingPoints& points, SensorIlluminance& light) {
@@ -28,13 +29,17 @@ void smooth_sky(const ShadingPoints& points, SensorIlluminance& light) {
 }
 
 /// Blocks of pixels are the cells in which the points of one surface share reflected light.
-SharingLayout sharing_by_pixels(const ShadingPoints& points) {
+SharingLayout sharing_by_pixels(const ShadingPoints& points, const PerspectiveCamera& camera) {
   SharingLayout layout;
+  layout.surface = points.surface;
   for (std::size_t i = 0; i < points.sensors.size(); ++i) {
     const auto [column, row] = points.pixel(i);
     layout.place.push_back({column / kBlock, row / kBlock, 0.0});
+    const double away = length(points.sensors.position[i] - camera.eye());
+    if (kBlock * camera.footprint_m(away) > kFarBlock_m) {
+      layout.surface[i] = facing(points.sensors.normal[i]);
+    }
   }
-  layout.surface = points.surface;
   layout.reach = 2;
   layout.must_see = false;
   layout.is_measured = false;  // over 8 pixels it would tell of far more than a pixel misses
@@ -116,7 +121,7 @@ RenderedView render_view(const ViewRequest& request, const RayVisibility& rays,
     IlluminanceOptions options = options_of(request);
     options.bounces = request.bounces;
     // Some twenty representatives are blended in a pixel.
-    const ReflectedSharing sharing(points.sensors, sharing_by_pixels(points));
+    const ReflectedSharing sharing(points.sensors, sharing_by_pixels(points, camera));
     add_shared_reflection(sharing, rays, source, options, progress, light);
   }
   RenderedView result;
