@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 
 std::vector<fs::path> plugin_folders() {
   std::vector<fs::path> folders;
-  if (const char* chosen = std::getenv("TENKU_PLUGINS")) folders.emplace_back(chosen);
+  const char* chosen = std::getenv("TENKU_PLUGINS");
+  if (chosen != nullptr && *chosen != '\0') folders.emplace_back(chosen);
   std::error_code unknown;
   const fs::path program = fs::read_symlink("/proc/self/exe", unknown);
   if (!unknown) {
