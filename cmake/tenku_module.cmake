@@ -3,6 +3,9 @@
 # tenku_module(name HEADERS ... SOURCES ... PUBLIC ... PRIVATE ...) makes the static library
 # tenku_<name>. PUBLIC and PRIVATE name other modules (without the prefix) or imported targets.
 # Each header is also compiled alone, so that it includes what it needs (target header_checks).
+#
+# tenku_plugin(name SOURCES ... USED_BY module PRIVATE ...) makes the library that core/plugin.h
+# loads under that name, and has it built with the module that asks for it.
 
 find_program(TENKU_CCACHE ccache)
 if(TENKU_CCACHE)
@@ -52,4 +55,17 @@ function(tenku_module name)
     target_link_libraries(header_checks_${name} PRIVATE tenku_options)
     add_dependencies(header_checks header_checks_${name})
   endif()
+endfunction()
+
+set(TENKU_PLUGIN_FOLDER ${PROJECT_BINARY_DIR}/lib/tenku)
+
+function(tenku_plugin name)
+  cmake_parse_arguments(P "" "USED_BY" "SOURCES;PRIVATE" ${ARGN})
+  add_library(plugin_${name} MODULE ${P_SOURCES})
+  target_link_libraries(plugin_${name} PRIVATE tenku_options ${P_PRIVATE})
+  set_target_properties(plugin_${name} PROPERTIES
+    PREFIX "" OUTPUT_NAME ${name}-${PROJECT_VERSION}
+    LIBRARY_OUTPUT_DIRECTORY ${TENKU_PLUGIN_FOLDER})
+  add_dependencies(tenku_${P_USED_BY} plugin_${name})
+  install(TARGETS plugin_${name} LIBRARY DESTINATION lib/tenku)
 endfunction()

@@ -1,6 +1,5 @@
 #include "sky_models/image_sky.h"
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "pictures/picture_codec.h"
 #include "sky_models/gauss_legendre.h"
 
 namespace tenku {
@@ -18,39 +18,19 @@ double linear_from_srgb(double v) {
   return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
 }
 
-struct RawImage {
-  std::size_t width, height, channels;
-  bool is_coded;  // sRGB
-  std::vector<float> values;
-};
-
-RawImage read_raw(const std::string& path) {
-  const auto input = OIIO::ImageInput::open(path);
-  if (!input) {
-    throw InputError(fmt::format("sky image '{}' cannot be read: {}", path, OIIO::geterror()));
-  }
-  const OIIO::ImageSpec& spec = input->spec();
+void check_shape(const PictureHeader& header, const std::string& path) {
   constexpr int kLargestSide = 65536;
-  if (spec.width < 8 || spec.height < 4 || spec.width > kLargestSide || spec.nchannels < 1) {
+  if (header.width < 8 || header.height < 4 || header.width > kLargestSide ||
+      header.channels.empty()) {
     throw InputError(
         fmt::format("sky image '{}' is {} x {} with {} channels: not an image of a sky", path,
-                    spec.width, spec.height, spec.nchannels));
+                    header.width, header.height, header.channels.size()));
   }
-  if (spec.width != 2 * spec.height) {
+  if (header.width != 2 * header.height) {
     throw InputError(fmt::format(
         "sky image '{}' is {} x {}: a latitude-longitude image is twice as wide as high", path,
-        spec.width, spec.height));
+        header.width, header.height));
   }
-  RawImage raw{static_cast<std::size_t>(spec.width),
-               static_cast<std::size_t>(spec.height),
-               static_cast<std::size_t>(spec.nchannels),
-               !spec.format.is_floating_point(),
-               {}};
-  raw.values.resize(raw.width * raw.height * raw.channels);
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, raw.values.data())) {
-    throw InputError(fmt::format("sky image '{}' cannot be read: {}", path, input->geterror()));
-  }
-  return raw;
 }
 
 }  // namespace
@@ -60,16 +40,21 @@ SkyImage read_sky_image(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path, status)) {
     throw InputError(fmt::format("sky image '{}': there is no such file", path.string()));
   }
-  const RawImage raw = read_raw(path.string());
-  SkyImage image{raw.width, raw.height, std::vector<Rgb>(raw.width * raw.height), {}};
+  check_shape(picture_codec().read_header(path), path.string());
+  const auto [header, values] = picture_codec().read(path);
+  const std::size_t channels = header.channels.size();
+  SkyImage image;
+  image.width = static_cast<std::size_t>(header.width);
+  image.height = static_cast<std::size_t>(header.height);
+  image.pixels.resize(image.width * image.height);
   std::size_t repaired = 0;
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
     double c[3];
     bool is_bad = false;
     for (std::size_t k = 0; k < 3; ++k) {
-      const double v = raw.values[i * raw.channels + (raw.channels >= 3 ? k : 0)];
+      const double v = values[i * channels + (channels >= 3 ? k : 0)];
       is_bad = is_bad || !(v >= 0.0) || std::isinf(v);
-      c[k] = v >= 0.0 && std::isfinite(v) ? (raw.is_coded ? linear_from_srgb(v) : v) : 0.0;
+      c[k] = v >= 0.0 && std::isfinite(v) ? (header.holds_codes ? linear_from_srgb(v) : v) : 0.0;
     }
     image.pixels[i] = {c[0], c[1], c[2]};
     if (is_bad) ++repaired;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/vec3.h"
@@ -43,7 +44,10 @@ struct FieldMesh {
   std::vector<FieldCodes> cell_codes;
   std::vector<FieldText> texts;  ///< `crs`, `origin`, `time`, `sky`, and the names of codes
 
-  void add_polygon(std::span<const std::uint32_t> corners);
+  void add_polygon(std::span<const std::uint32_t> corners) {
+    polygon_corners.insert(polygon_corners.end(), corners.begin(), corners.end());
+    polygon_ends.push_back(static_cast<std::uint32_t>(polygon_corners.size()));
+  }
   std::size_t polygon_count() const { return polygon_ends.size(); }
 };
 
@@ -52,11 +56,15 @@ struct FieldMesh {
 ///
 /// Error    points and values are stored as 32-bit floats; codes exactly.
 /// @throws InputError if an array has the wrong length, a corner is out of range, a point is not
-///         finite, or the folder does not exist; ResourceError if writing fails
+///         finite, or the folder does not exist; ResourceError if writing fails or the plug-in
+///         `fields` cannot be loaded
 void write_vtp(const std::filesystem::path& path, const FieldMesh& mesh);
 
 /// Reads back what `write_vtp` wrote.
 /// @throws InputError if the file cannot be read
 FieldMesh read_vtp(const std::filesystem::path& path);
+
+/// Version of VTK, such as `9.1.0`; does not load it.
+std::string_view vtk_version();
 
 }  // namespace tenku

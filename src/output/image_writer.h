@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "pictures/picture_codec.h"
 #include "view/image.h"
 
 namespace tenku {
@@ -20,11 +21,6 @@ struct PictureInfo {
 struct PictureLayer {
   std::string name;
   std::vector<double> values;  ///< [row][column]; NaN where there is none
-};
-
-enum class ExrDepth {
-  Half,  ///< 11 significant bits, up to 65504
-  Float  ///< 24 significant bits
 };
 
 /// Writes an 8-bit sRGB PNG.
@@ -59,16 +55,5 @@ void write_hdr(const std::filesystem::path& path, const Image& image, const Pict
 /// @throws InputError for any other extension
 void write_luminance_image(const std::filesystem::path& path, const Image& image,
                            const PictureInfo& info = {});
-
-/// Picture as read back: all channels by name.
-struct StoredPicture {
-  int width = 0, height = 0;
-  std::vector<PictureLayer> channels;
-  std::vector<std::pair<std::string, std::string>> texts;  ///< metadata that is text
-};
-
-/// Reads any picture file, as stored (8-bit codes become 0..1).
-/// @throws InputError if it cannot be read
-StoredPicture read_picture(const std::filesystem::path& path);
 
 }  // namespace tenku

@@ -1,10 +1,8 @@
 #include "output/manifest.h"
 
-#include <OpenImageIO/oiioversion.h>
 #include <openssl/opensslv.h>
 #include <sys/utsname.h>
 #include <unistd.h>
-#include <vtkVersionMacros.h>
 
 #include <cmath>
 #include <fstream>
@@ -13,7 +11,9 @@
 
 #include "core/atomic_file.h"
 #include "core/version.h"
+#include "output/field_writer.h"
 #include "output/sha256.h"
+#include "pictures/picture_codec.h"
 
 namespace tenku {
 namespace {
@@ -70,8 +70,8 @@ Machine this_machine() {
 }
 
 std::vector<ManifestEntry> output_library_versions() {
-  return {{"OpenImageIO", std::string(OIIO_VERSION_STRING)},
-          {"VTK", std::string(VTK_VERSION)},
+  return {{"OpenImageIO", std::string(openimageio_version())},
+          {"VTK", std::string(vtk_version())},
           {"OpenSSL", std::string(OPENSSL_VERSION_STR)}};
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/lit_scene_files.h"
+#include "core/version.h"
 #include "support/reference_table.h"
 #include "support/run_program.h"
 
@@ -24,6 +25,20 @@ void expect_keys(const std::string& text, const std::vector<std::string>& keys) 
   const json summary = json::parse(text);
   for (const std::string& key : keys) EXPECT_TRUE(summary.contains(key)) << key << "\n" << text;
 }
+
+/// Set for this process and those that it starts, until the end of the scope.
+class EnvironmentVariable {
+ public:
+  EnvironmentVariable(const char* name, const std::string& value) : name_(name) {
+    setenv(name, value.c_str(), 1);
+  }
+  ~EnvironmentVariable() { unsetenv(name_); }
+  EnvironmentVariable(const EnvironmentVariable&) = delete;
+  EnvironmentVariable& operator=(const EnvironmentVariable&) = delete;
+
+ private:
+  const char* name_;
+};
 
 bool has_partial_file(const fs::path& folder) {
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -44,6 +59,27 @@ TEST(Contract, StandardOutputHoldsTheTableAndNothingElse) {
   EXPECT_EQ(header, kColumns);
   EXPECT_EQ(row.substr(0, 12), "10,10,0,0,0,") << row;
   EXPECT_FALSE(std::getline(lines, rest)) << rest;
+}
+
+// With libraries that cannot be loaded, all goes well that needs none of them.
+TEST(LibrariesOnDemand, AreAskedForByPicturesAndFieldsAlone) {
+  const fs::path folder = test_folder();
+  write_box_scene(folder);
+  const std::string version(software_name().substr(software_name().find(' ') + 1));
+  write_text(folder / ("pictures-" + version + ".so"), "broken");
+  write_text(folder / ("fields-" + version + ".so"), "broken");
+  const EnvironmentVariable plugins("TENKU_PLUGINS", folder);
+  EXPECT_EQ(run_tenku("--version", folder).exit_code, 0);
+  EXPECT_EQ(run_tenku("sky --out sky.hdr" + kSky, folder).exit_code, 0);
+  EXPECT_EQ(
+      run_tenku("illuminance box.obj --sensors open.pts --out o.csv" + kSky, folder).exit_code, 0);
+  for (const std::string out : {"sky.png", "sky.exr", "sky.vtp"}) {
+    const auto run = run_tenku("sky --out " + out + kSky, folder);
+    EXPECT_EQ(run.exit_code, 1) << run.err;
+    EXPECT_NE(run.err.find("cannot load " + folder.string()), std::string::npos) << run.err;
+    EXPECT_FALSE(fs::exists(folder / out));
+  }
+  EXPECT_FALSE(has_partial_file(folder));
 }
 
 TEST(Contract, SummariesHaveTheirKeys) {

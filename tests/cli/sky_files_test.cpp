@@ -5,13 +5,15 @@
 #include <nlohmann/json.hpp>
 
 #include "output/field_writer.h"
-#include "output/image_writer.h"
+#include "pictures/picture_codec.h"
 #include "study/sky_output.h"
+#include "support/picture_channel.h"
 #include "support/run_program.h"
 
 namespace tenku {
 namespace {
 
+using testing_support::channel;
 using testing_support::run_tenku;
 using testing_support::test_folder;
 
@@ -72,13 +74,10 @@ TEST(SkyFiles, BrightestElementIsAtTheSun) {
 
 /// Column and row of the largest value in the green channel.
 std::pair<int, int> brightest(const StoredPicture& picture) {
-  for (const PictureLayer& channel : picture.channels) {
-    if (channel.name != "G") continue;
-    const auto at = std::max_element(channel.values.begin(), channel.values.end());
-    const auto i = static_cast<int>(at - channel.values.begin());
-    return {i % picture.width, i / picture.width};
-  }
-  return {-1, -1};
+  const std::vector<float> green = channel(picture, "G");
+  const auto at = std::max_element(green.begin(), green.end());
+  const auto i = static_cast<int>(at - green.begin());
+  return {i % picture.header.width, i / picture.header.width};
 }
 
 // Azimuth 135: a turn of 135 degrees to the right of the middle, 7/8 of the width. Altitude 40:
@@ -89,11 +88,11 @@ TEST(SkyFiles, PanoramaHasNorthInTheMiddleAndEastToItsRight) {
     const auto run =
         run_tenku("sky --sky cie:12 --sun-altitude 40 --sun-azimuth 135 --out " + name, folder);
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    const StoredPicture picture = read_picture(folder / name);
-    ASSERT_EQ(picture.width, 2 * picture.height);
+    const StoredPicture picture = picture_codec().read(folder / name);
+    ASSERT_EQ(picture.header.width, 2 * picture.header.height);
     const auto [column, row] = brightest(picture);
-    EXPECT_NEAR((column + 0.5) / picture.width, 7.0 / 8.0, 0.005) << name;
-    EXPECT_NEAR((row + 0.5) / picture.height, 50.0 / 180.0, 0.01) << name;
+    EXPECT_NEAR((column + 0.5) / picture.header.width, 7.0 / 8.0, 0.005) << name;
+    EXPECT_NEAR((row + 0.5) / picture.header.height, 50.0 / 180.0, 0.01) << name;
   }
 }
 
@@ -134,9 +133,9 @@ TEST(SkyFiles, PictureOfTheProgramIsThePlan) {
   const auto run =
       run_tenku("sky --sky cie:12 --sun-altitude 40 --sun-azimuth 135 --out sky.png", folder);
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  const StoredPicture picture = read_picture(folder / "sky.png");
-  EXPECT_EQ(picture.width, 700);
-  EXPECT_GT(picture.height, 760);  // the legend
+  const StoredPicture picture = picture_codec().read(folder / "sky.png");
+  EXPECT_EQ(picture.header.width, 700);
+  EXPECT_GT(picture.header.height, 760);  // the legend
 }
 
 TEST(SkyFiles, NightAndNoSkyAreRefusedWithAReason) {
