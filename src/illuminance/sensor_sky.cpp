@@ -216,7 +216,7 @@ double SensorSky::gap_variance(std::size_t i) const {
   };
   const double known = gap.is_blind ? width : width - gap.hole_width;
   return lesson_.share_variance * square(gap.room.lux) +
-         square(known) / 6.0 *
+         square(known) / 5.0 *
              (miss_squared(entry_[i]) + miss_squared(entry_[(i + 1) % entry_.size()]));
 }
 
