@@ -62,7 +62,7 @@ class SensorWork {
   }
 
   /// Refines until the budget is met; false if the limit of effort came first.
-  bool finish(const ErrorBudget& budget) {
+  bool finish(const ErrorBudget& budget, const Progress& progress) {
     if (known_direct_ < 0.0) {
       sun_.refine();
       see_sky(budget);
@@ -74,6 +74,7 @@ class SensorWork {
       reflected_->refine();
     }
     while (refinable_variance() > budget.allowed_variance(total())) {
+      progress.stop_if_cancelled();
       if (!refine_worst()) return false;
     }
     return elements_ == nullptr || interval_lux(variance(), 0.0) <= budget.allowed_lux(total());
@@ -219,7 +220,7 @@ IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
     for (std::size_t i = range.begin; i < range.end; ++i) {
       progress.stop_if_cancelled();
       SensorWork work({sensors, i}, rays, source, cache ? &*cache : nullptr, options);
-      result.is_missed[i] = !work.finish(budget);
+      result.is_missed[i] = !work.finish(budget, progress);
       work.store(result.values, i);
       rays_sent += work.rays_sent();
     }
