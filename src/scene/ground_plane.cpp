@@ -14,6 +14,7 @@ namespace tenku {
 namespace {
 
 constexpr double kFoot_m = 0.05;  // of height that counts as one level
+constexpr double kHill_m = 20.0;  // beyond, a level ground is a poor one
 constexpr double kLeastMargin_m = 100.0, kMarginPerHeight = 3.0;
 
 Extent local_extent(const Scene& scene) {
@@ -87,12 +88,14 @@ void add_ground(RawScene& raw, const GroundChoice& choice) {
   const double z = is_auto ? box.min.z : local_height(scene, choice.height);
   if (is_auto) {
     if (const auto [count, farthest] = lower_feet(raw, z); count > 0) {
-      raw.findings.add({"feet_lowered", Severity::Note, "", "",
-                        fmt::format("{} buildings stand above the ground under the city, by up to "
-                                    "{:.1f} m",
-                                    count, farthest),
-                        "their walls were drawn down to it, so that no light comes from below",
-                        count});
+      raw.findings.add(
+          {"feet_lowered", farthest > kHill_m ? Severity::Warning : Severity::Note, "", "",
+           fmt::format("{} buildings stand above the ground under the city, by up to "
+                       "{:.1f} m",
+                       count, farthest),
+           "their walls were drawn down to it, so that no light comes from below; a scene "
+           "with terrain tells more",
+           count});
     }
   }
   const double margin = std::max(kLeastMargin_m, kMarginPerHeight * (box.max.z - box.min.z));

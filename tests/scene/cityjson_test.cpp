@@ -181,6 +181,27 @@ TEST(CityJson, GroundIsGivenToACityWithoutTerrainOnly) {
   EXPECT_EQ(count_of(furniture, "ground_added"), 0U);
 }
 
+TEST(CityJson, BuildingsAboveTheGroundGivenReachDownToIt) {
+  // Two cubes with sides of 1 m, one of them 7 m above the other and 10 m to the east.
+  const std::string obj =
+      "# x = Easting - 0.0, y = Northing - 0.0, z = height; EPSG:31255\n"
+      "o low\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+      "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"
+      "o high\nv 10 0 7\nv 11 0 7\nv 11 1 7\nv 10 1 7\nv 10 0 8\nv 11 0 8\nv 11 1 8\nv 10 1 8\n"
+      "f 12 11 10 9\nf 13 14 15 16\nf 9 10 14 13\nf 10 11 15 14\nf 11 12 16 15\nf 12 9 13 16\n";
+  const Scene city = read_text("a.obj", obj);
+  ASSERT_EQ(count_of(city, "ground_added"), 1U);
+  EXPECT_EQ(count_of(city, "feet_lowered"), 1U);
+  const TriangleSoup soup = flatten(city);
+  double wall_area = 0.0;  // upright: 4 m2 of the low cube, 4 x 8 m2 of the other
+  for (std::uint32_t t = 0; t < soup.size(); ++t) {
+    const auto& [a, b, c] = soup.triangles[t];
+    const Vec3 n = cross(soup.vertices[b] - soup.vertices[a], soup.vertices[c] - soup.vertices[a]);
+    if (std::abs(n.z) < 1e-9) wall_area += 0.5 * length(n);
+  }
+  EXPECT_NEAR(wall_area, 36.0, 1e-3);  // lengths of the grid are not quite true ones
+}
+
 TEST(CityJson, DuplicateAndDegenerateGeometryIsMendedAndCounted) {
   const std::string vertices = "[0,0,0],[1000,0,0],[1000,1000,0],[0,1000,0],[0,0,0],[500,0,0]";
   const std::string geometry =

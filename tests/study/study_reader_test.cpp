@@ -113,6 +113,7 @@ name = "b"
 name = "all"
 surfaces = ["walls"]
 spacing_m = 0.5
+most_sensors = 1000
 [[sensors]]
 name = "desk"
 file = "desk.pts"
@@ -162,6 +163,7 @@ sun_path = false
   ASSERT_EQ(study.fields.size(), 1U);
   EXPECT_EQ(study.fields[0].surfaces, std::vector<std::string>{"walls"});
   EXPECT_EQ(study.fields[0].spacing_m, 0.5);
+  EXPECT_EQ(study.fields[0].most_sensors, 1000U);
   ASSERT_EQ(study.sensors.size(), 1U);
   EXPECT_EQ(study.sensors[0].file, folder_ / "desk.pts");
   EXPECT_EQ(study.plan->spacing_m, 4.0);
