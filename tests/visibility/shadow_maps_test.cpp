@@ -211,36 +211,6 @@ TEST(ShadowMaps, ResultsDoNotDependOnTheThreads) {
   EXPECT_EQ(run(4), one);
 }
 
-TEST(ShadowMaps, SunDiscGivesThePenumbraOfAStraightEdge) {
-  // The lower half of the disc is hidden where its centre stands at the top of an endless wall.
-  TestScene scene;
-  scene.level({-20, -20, 20, 20}, 0.0);
-  scene.wall({-2000, 10, 2000, 10}, 0, 10);
-  const ShadowMaps maps(scene.soup, scene.materials, software(64));
-  const double radius = Angle::degrees(0.2665).in_radians();
-  const Vec3 sun = normalized(Vec3{0, 1, 1});
-  const Vec3 upward = normalized(Vec3{0, -1, 1}), level{1, 0, 0};
-  // Distance from the wall at which the top stands `share` radii above the centre of the disc.
-  for (const double share : {-0.5, 0.0, 0.5}) {
-    const double distance = 10.0 / std::tan(kPi / 4 + share * radius);
-    const std::vector<Vec3> point{{0, 10 - distance, kLift}};
-    const std::vector<Vec3> normal{kZenith};
-    double visible = 0.0;
-    constexpr int kDirections = 128;
-    for (int k = 0; k < kDirections; ++k) {
-      const double r = std::sqrt((k + 0.5) / kDirections) * radius, turn = 2.39996322972865 * k;
-      const Vec3 toward =
-          normalized(sun + r * std::cos(turn) * level + r * std::sin(turn) * upward);
-      std::vector<float> seen(1);
-      maps.transmission_from(toward, point, normal, seen);
-      visible += seen[0] / kDirections;
-    }
-    // Area of the part of a unit disc above the chord at height `share`.
-    const double truth = (std::acos(share) - share * std::sqrt(1 - share * share)) / kPi;
-    EXPECT_NEAR(visible, truth, 0.02) << share;  // 128 directions: about a seventh of 1/sqrt(128)
-  }
-}
-
 TEST(ShadowMaps, MapsOfNoTexelsAreRefused) {
   TestScene scene;
   scene.level({-1, -1, 1, 1}, 0.0);
