@@ -1,6 +1,7 @@
 #include "visibility/caster_set.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -41,6 +42,12 @@ double reach(Vec3 axis, Vec3 half) {
 
 }  // namespace
 
+LightAxes::LightAxes(Vec3 direction) : w(direction) {
+  const double level = std::hypot(w.x, w.y);
+  u = level > 1e-9 ? Vec3{-w.y / level, w.x / level, 0.0} : Vec3{1.0, 0.0, 0.0};
+  v = cross(w, u);
+}
+
 CasterSet::CasterSet(const TriangleSoup& soup, const std::vector<Material>& materials)
     : soup_(soup), adjacency_(soup), plane_(soup.size()) {
   Bounds all;
@@ -80,37 +87,45 @@ std::vector<CasterVertex> CasterSet::vertices(Vec3 origin) const {
   return made;
 }
 
-Cover CasterSet::cover(std::uint32_t triangle, Vec3 point, Vec3 toward_light,
+Cover CasterSet::cover(std::uint32_t triangle, Vec3 point, const LightAxes& axes,
                        double tolerance_m) const {
   constexpr int kSteps = 12;
-  // Where the light sees `at` to an edge: the sign tells the side, and is the same for both of the
-  // triangles that share it.
-  const auto side = [&](Vec3 a, Vec3 b, Vec3 at) {
-    return dot(toward_light, cross(a - at, b - at));
+  struct Seen {
+    double u, v;  // from the point, as the light sees it
   };
+  const auto seen = [&](std::uint32_t t, unsigned k) {
+    const Vec3 from_point = corner(t, k) - point;
+    return Seen{dot(axes.u, from_point), dot(axes.v, from_point)};
+  };
+  // The sign tells the side of an edge; it is the same for both triangles that share the edge.
+  const auto turn = [](Seen a, Seen b) { return a.u * b.v - a.v * b.u; };
   for (int step = 0; step < kSteps; ++step) {
-    unsigned out = 3;
-    for (unsigned e = 0; e < 3 && out == 3; ++e) {
-      const Vec3 a = corner(triangle, e), b = corner(triangle, (e + 1) % 3);
-      const double inner = side(a, b, corner(triangle, (e + 2) % 3)), outer = side(a, b, point);
-      if (inner == 0.0) return Cover::Beside;  // seen edge-on
-      if (inner > 0.0 ? outer < 0.0 : outer > 0.0) out = e;
-    }
+    const std::array<Seen, 3> at{seen(triangle, 0), seen(triangle, 1), seen(triangle, 2)};
+    const std::array<double, 3> side{turn(at[0], at[1]), turn(at[1], at[2]), turn(at[2], at[0])};
+    const double area = side[0] + side[1] + side[2];
+    if (area == 0.0) return Cover::Beside;  // seen edge-on
+    const double sense = area > 0.0 ? 1.0 : -1.0;
+    unsigned out = 0;
+    while (out < 3 && sense * side[out] >= 0.0) ++out;
     if (out == 3) {
-      const CasterPlane& p = plane_[triangle];
-      const double before = dot(p.normal, point) - p.offset;
-      const bool is_behind = (dot(p.normal, toward_light) < 0.0 ? -before : before) < -tolerance_m;
-      return is_behind ? Cover::Hides : Cover::Beside;
+      return is_behind(triangle, point, axes.w, tolerance_m) ? Cover::Hides : Cover::Beside;
     }
     const std::uint32_t opposite = adjacency_.opposite(triangle, out);
     if (opposite == MeshAdjacency::kNone || !is_caster(opposite / 3)) return Cover::Beside;
-    const Vec3 a = corner(triangle, out), b = corner(triangle, (out + 1) % 3);
     triangle = opposite / 3;
-    const double beyond = side(a, b, corner(triangle, (opposite + 2) % 3));
-    // Where the mesh turns back is its outline.
-    if (!(beyond > 0.0 ? side(a, b, point) > 0.0 : side(a, b, point) < 0.0)) return Cover::Beside;
+    const Seen a = at[out], b = at[(out + 1) % 3];
+    const Seen c = seen(triangle, (opposite + 2) % 3);
+    const double beyond = turn({a.u - c.u, a.v - c.v}, {b.u - c.u, b.v - c.v});
+    if (!(sense * beyond < 0.0)) return Cover::Beside;  // where the mesh turns back is its outline
   }
   return Cover::Unknown;
+}
+
+bool CasterSet::is_behind(std::uint32_t triangle, Vec3 point, Vec3 toward_light,
+                          double tolerance_m) const {
+  const CasterPlane& plane = plane_[triangle];
+  const double before = dot(plane.normal, point) - plane.offset;
+  return (dot(plane.normal, toward_light) < 0.0 ? -before : before) < -tolerance_m;
 }
 
 double CasterSet::width_m(std::uint32_t triangle, Vec3 direction) const {
@@ -132,10 +147,11 @@ CasterSet::Selection CasterSet::before(const LightBox& box) const {
       const double at = dot(axis, chunk.centre), about = reach(axis, chunk.half);
       return at + about >= low && at - about <= high;
     };
-    if (!overlaps(box.u, box.low.x, box.high.x) || !overlaps(box.v, box.low.y, box.high.y)) {
+    if (!overlaps(box.axes.u, box.low.x, box.high.x) ||
+        !overlaps(box.axes.v, box.low.y, box.high.y)) {
       continue;
     }
-    const double top = dot(box.w, chunk.centre) + reach(box.w, chunk.half);
+    const double top = dot(box.axes.w, chunk.centre) + reach(box.axes.w, chunk.half);
     if (top < box.low.z) continue;
     found.nearest = std::max(found.nearest, top);
     auto& ranges = found.casters;

@@ -18,10 +18,17 @@ struct CasterPlane {
   double offset;  ///< metres
 };
 
-/// A part of space seen along a direction: the box [low, high] on three axes.
+/// Axes across the light: unit vectors at right angles, u level, v upward, w toward the light.
+struct LightAxes {
+  Vec3 u, v, w;
+
+  explicit LightAxes(Vec3 direction);
+};
+
+/// A part of space seen along a direction: coordinates along u, v and w as x, y and z.
 struct LightBox {
-  Vec3 u, v, w;    ///< unit, at right angles; w toward the light
-  Vec3 low, high;  ///< coordinates along u, v and w as x, y and z
+  LightAxes axes;
+  Vec3 low, high;
 };
 
 /// How a triangle lies to a point, seen along a direction.
@@ -56,8 +63,12 @@ class CasterSet {
   Selection before(const LightBox& box) const;
 
   /// Goes over the mesh from a triangle to the one that the line from `point` to the light meets.
-  /// @param tolerance_m  a point this near to a triangle's plane is not behind it
-  Cover cover(std::uint32_t triangle, Vec3 point, Vec3 toward_light, double tolerance_m) const;
+  /// @param tolerance_m  as in `is_behind`
+  Cover cover(std::uint32_t triangle, Vec3 point, const LightAxes& axes, double tolerance_m) const;
+
+  /// Whether the plane of a triangle lies between a point and the light, by more than the
+  /// tolerance.
+  bool is_behind(std::uint32_t triangle, Vec3 point, Vec3 toward_light, double tolerance_m) const;
 
   /// Least width of a triangle seen along a direction, in metres.
   double width_m(std::uint32_t triangle, Vec3 direction) const;

@@ -1,6 +1,7 @@
 #include "visibility/shadow_maps.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -28,14 +29,22 @@ constexpr double kOriginPitch = 4096.0;
 constexpr double kDepthReach = 16384.0;
 constexpr std::size_t kGrain = 4096;  // points in a task
 
-/// Axes across the light: u level, v upward, w toward the light.
-struct LightAxes {
-  Vec3 u, v, w;
+Vec3 lesser(Vec3 a, Vec3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
+Vec3 greater(Vec3 a, Vec3 b) {
+  return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+}
 
-  explicit LightAxes(Vec3 direction) : w(direction) {
-    const double level = std::hypot(w.x, w.y);
-    u = level > 1e-9 ? Vec3{-w.y / level, w.x / level, 0.0} : Vec3{1.0, 0.0, 0.0};
-    v = cross(w, u);
+/// Extent of points along the axes of the world, and along those of the light.
+struct Extent {
+  Vec3 least{HUGE_VAL, HUGE_VAL, HUGE_VAL}, most = -least, low = least, high = most;
+
+  void add(Vec3 p, const LightAxes& axes) {
+    const Vec3 seen{dot(axes.u, p), dot(axes.v, p), dot(axes.w, p)};
+    join({p, p, seen, seen});
+  }
+  void join(const Extent& other) {
+    least = lesser(least, other.least), most = greater(most, other.most);
+    low = lesser(low, other.low), high = greater(high, other.high);
   }
 };
 
@@ -50,20 +59,20 @@ struct MapPlan {
 
   MapPlan(Vec3 direction, std::span<const Vec3> points, const ShadowMapOptions& options)
       : axes(direction) {
-    Vec3 least{HUGE_VAL, HUGE_VAL, HUGE_VAL}, most = -least;
-    for (const Vec3& p : points) {
-      least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
-      most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
-    }
-    const auto on_grid = [](double x) { return kOriginPitch * std::round(x / kOriginPitch); };
-    const Vec3 middle = 0.5 * (least + most);
-    origin = {on_grid(middle.x), on_grid(middle.y), on_grid(middle.z)};
-    low = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high = -low;
-    for (const Vec3& p : points) {
-      const Vec3 at = local(p);
-      low = {std::min(low.x, at.x), std::min(low.y, at.y), std::min(low.z, at.z)};
-      high = {std::max(high.x, at.x), std::max(high.y, at.y), std::max(high.z, at.z)};
-    }
+    std::vector<Extent> parts((points.size() + kGrain - 1) / kGrain);
+    parallel_for(points.size(), kGrain, [&](IndexRange range) {
+      Extent& part = parts[range.begin / kGrain];
+      for (const Vec3& p : points.subspan(range.begin, range.end - range.begin)) part.add(p, axes);
+    });
+    Extent all;
+    for (const Extent& part : parts) all.join(part);
+    const auto on_grid = [](double a, double b) {
+      return kOriginPitch * std::round(0.5 * (a + b) / kOriginPitch);
+    };
+    origin = {on_grid(all.least.x, all.most.x), on_grid(all.least.y, all.most.y),
+              on_grid(all.least.z, all.most.z)};
+    const Vec3 shift{dot(axes.u, origin), dot(axes.v, origin), dot(axes.w, origin)};
+    low = all.low - shift, high = all.high - shift;
     divide(options);
   }
 
@@ -96,7 +105,7 @@ struct MapPlan {
     const Vec3 shift{dot(axes.u, origin), dot(axes.v, origin), dot(axes.w, origin)};
     const Vec3 from{corner_u, corner_v, low.z};
     const Vec3 to{corner_u + width * texel_u, corner_v + height * texel_v, high.z};
-    return {axes.u, axes.v, axes.w, from + shift, to + shift};
+    return {axes, from + shift, to + shift};
   }
 
   /// @param nearest  coordinate along w of the caster nearest to the light, from `origin`
@@ -135,29 +144,15 @@ class DrawnMap {
     // The points lie half a texel or more inside the outermost centres, but for rounding.
     const int i = std::clamp(static_cast<int>(std::floor(x)), 0, plan_.width - 2);
     const int j = std::clamp(static_cast<int>(std::floor(y)), 0, plan_.height - 2);
-    const double right = std::clamp(x - i, 0.0, 1.0), up = std::clamp(y - j, 0.0, 1.0);
-    double open = 0.0, beside = 0.0;
-    bool is_open = false;
-    std::uint32_t last = CasterMap::kNothing;
-    Texel found = Texel::Open;
-    for (const int place : {0, 1, 3, 2}) {  // around: neighbours often show the same triangle
-      const int column = i + (place & 1), row = j + (place >> 1);
-      const std::uint32_t id =
-          id_[static_cast<std::size_t>(row) * static_cast<std::size_t>(plan_.width) +
-              static_cast<std::size_t>(column)];
-      if (id == CasterMap::kNothing) {
-        found = Texel::Open;
-      } else if (id != last) {
-        found = ask(id - 1, point, normal, {column - x, row - y});
-      }
-      last = id;
-      if (found == Texel::Hides) return 0.0F;
-      const double weight =
-          ((place & 1) != 0 ? right : 1.0 - right) * ((place >> 1) != 0 ? up : 1.0 - up);
-      if (found == Texel::Open) open += weight, is_open = true;
-      if (found == Texel::Beside) beside += weight;
+    const auto width = static_cast<std::size_t>(plan_.width);
+    const std::uint32_t* below =
+        &id_[static_cast<std::size_t>(j) * width + static_cast<std::size_t>(i)];
+    const std::array<std::uint32_t, 4> id{below[0], below[1], below[width], below[width + 1]};
+    if (id[0] == id[1] && id[0] == id[2] && id[0] == id[3]) {
+      // A triangle about all four centres is about the point.
+      return id[0] == CasterMap::kNothing || !is_behind(id[0] - 1, point) ? 1.0F : 0.0F;
     }
-    return is_open ? static_cast<float>(std::min(1.0, open + beside)) : 0.0F;
+    return filtered(id, point, normal, {x - i, y - j});
   }
 
  private:
@@ -171,16 +166,45 @@ class DrawnMap {
     double u, v;  ///< texels from the point to the centre of the texel
   };
 
+  /// @param id  of the texels at the left and right, below and then above
+  /// @param at  texels from the first one's centre to the point, 0 to 1
+  float filtered(const std::array<std::uint32_t, 4>& id, Vec3 point, Vec3 normal, Across at) const {
+    const double right = std::clamp(at.u, 0.0, 1.0), up = std::clamp(at.v, 0.0, 1.0);
+    double lit = 0.0;
+    bool is_open = false;
+    std::uint32_t last = CasterMap::kNothing;
+    Texel found = Texel::Open;
+    const unsigned nearest = (right > 0.5 ? 1U : 0U) | (up > 0.5 ? 2U : 0U);
+    for (const unsigned step : {0U, 1U, 3U, 2U}) {  // around: neighbours often show the same
+      const unsigned k = nearest ^ step;
+      const bool is_right = (k & 1U) != 0, is_up = (k & 2U) != 0;
+      if (id[k] == CasterMap::kNothing) {
+        found = Texel::Open;
+      } else if (id[k] != last) {
+        found = ask(id[k] - 1, point, normal,
+                    {(is_right ? 1.0 : 0.0) - at.u, (is_up ? 1.0 : 0.0) - at.v});
+      }
+      last = id[k];
+      if (found == Texel::Hides) return 0.0F;
+      is_open = is_open || found == Texel::Open;
+      if (found != Texel::Blurred) lit += (is_right ? right : 1 - right) * (is_up ? up : 1 - up);
+    }
+    return is_open ? static_cast<float>(std::min(1.0, lit)) : 0.0F;
+  }
+
+  bool is_behind(std::uint32_t triangle, Vec3 point) const {
+    return casters_.is_behind(triangle, point, plan_.axes.w, kRounding);
+  }
+
   Texel ask(std::uint32_t triangle, Vec3 point, Vec3 normal, Across across) const {
+    if (!is_behind(triangle, point)) return Texel::Open;
     const CasterPlane& plane = casters_.plane(triangle);
-    const double toward = dot(plane.normal, plan_.axes.w);
-    const double before = dot(plane.normal, point) - plane.offset;
-    if ((toward < 0.0 ? -before : before) >= -kRounding) return Texel::Open;
-    const Cover cover = casters_.cover(triangle, point, plan_.axes.w, kRounding);
+    const Cover cover = casters_.cover(triangle, point, plan_.axes, kRounding);
     if (cover == Cover::Hides) return Texel::Hides;
     // The triangle at the centre of the texel, above the plane of the point's surface.
     const Vec3 way = across.u * step_u_ + across.v * step_v_;
-    const double depth = -(before + dot(plane.normal, way)) / toward;
+    const double depth =
+        -(dot(plane.normal, point + way) - plane.offset) / dot(plane.normal, plan_.axes.w);
     if (!(dot(normal, way + depth * plan_.axes.w) > kRounding)) return Texel::Open;
     const double wide = std::max(plan_.texel_u, plan_.texel_v);
     return cover == Cover::Beside && casters_.width_m(triangle, plan_.axes.w) >= wide
