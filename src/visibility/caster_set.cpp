@@ -121,13 +121,6 @@ Cover CasterSet::cover(std::uint32_t triangle, Vec3 point, const LightAxes& axes
   return Cover::Unknown;
 }
 
-bool CasterSet::is_behind(std::uint32_t triangle, Vec3 point, Vec3 toward_light,
-                          double tolerance_m) const {
-  const CasterPlane& plane = plane_[triangle];
-  const double before = dot(plane.normal, point) - plane.offset;
-  return (dot(plane.normal, toward_light) < 0.0 ? -before : before) < -tolerance_m;
-}
-
 double CasterSet::width_m(std::uint32_t triangle, Vec3 direction) const {
   double longest = 0.0;
   for (unsigned k = 0; k < 3; ++k) {

@@ -68,7 +68,11 @@ class CasterSet {
 
   /// Whether the plane of a triangle lies between a point and the light, by more than the
   /// tolerance.
-  bool is_behind(std::uint32_t triangle, Vec3 point, Vec3 toward_light, double tolerance_m) const;
+  bool is_behind(std::uint32_t triangle, Vec3 point, Vec3 toward_light, double tolerance_m) const {
+    const CasterPlane& plane = plane_[triangle];
+    const double before = dot(plane.normal, point) - plane.offset;
+    return (dot(plane.normal, toward_light) < 0.0 ? -before : before) < -tolerance_m;
+  }
 
   /// Least width of a triangle seen along a direction, in metres.
   double width_m(std::uint32_t triangle, Vec3 direction) const;

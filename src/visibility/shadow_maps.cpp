@@ -29,22 +29,13 @@ constexpr double kOriginPitch = 4096.0;
 constexpr double kDepthReach = 16384.0;
 constexpr std::size_t kGrain = 4096;  // points in a task
 
-Vec3 lesser(Vec3 a, Vec3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
-Vec3 greater(Vec3 a, Vec3 b) {
-  return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
-}
-
-/// Extent of points along the axes of the world, and along those of the light.
+/// Extent of points along the axes of the light.
 struct Extent {
-  Vec3 least{HUGE_VAL, HUGE_VAL, HUGE_VAL}, most = -least, low = least, high = most;
+  Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high = -low;
 
-  void add(Vec3 p, const LightAxes& axes) {
-    const Vec3 seen{dot(axes.u, p), dot(axes.v, p), dot(axes.w, p)};
-    join({p, p, seen, seen});
-  }
-  void join(const Extent& other) {
-    least = lesser(least, other.least), most = greater(most, other.most);
-    low = lesser(low, other.low), high = greater(high, other.high);
+  void add(Vec3 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
 };
 
@@ -60,26 +51,25 @@ struct MapPlan {
   MapPlan(Vec3 direction, std::span<const Vec3> points, const ShadowMapOptions& options)
       : axes(direction) {
     std::vector<Extent> parts((points.size() + kGrain - 1) / kGrain);
-    parallel_for(points.size(), kGrain, [&](IndexRange range) {
-      Extent& part = parts[range.begin / kGrain];
-      for (const Vec3& p : points.subspan(range.begin, range.end - range.begin)) part.add(p, axes);
+    parallel_for(parts.size(), 1, [&](IndexRange range) {
+      for (std::size_t k = range.begin; k < range.end; ++k) {
+        Extent part;
+        for (std::size_t i = k * kGrain; i < std::min(points.size(), (k + 1) * kGrain); ++i) {
+          const Vec3& p = points[i];
+          part.add({dot(axes.u, p), dot(axes.v, p), dot(axes.w, p)});
+        }
+        parts[k] = part;
+      }
     });
     Extent all;
-    for (const Extent& part : parts) all.join(part);
-    const auto on_grid = [](double a, double b) {
-      return kOriginPitch * std::round(0.5 * (a + b) / kOriginPitch);
-    };
-    origin = {on_grid(all.least.x, all.most.x), on_grid(all.least.y, all.most.y),
-              on_grid(all.least.z, all.most.z)};
+    for (const Extent& part : parts) all.add(part.low), all.add(part.high);
+    const Vec3 middle = 0.5 * (all.low + all.high);
+    const Vec3 centre = middle.x * axes.u + middle.y * axes.v + middle.z * axes.w;
+    const auto on_grid = [](double x) { return kOriginPitch * std::round(x / kOriginPitch); };
+    origin = {on_grid(centre.x), on_grid(centre.y), on_grid(centre.z)};
     const Vec3 shift{dot(axes.u, origin), dot(axes.v, origin), dot(axes.w, origin)};
     low = all.low - shift, high = all.high - shift;
     divide(options);
-  }
-
-  /// Coordinates of a point along the axes.
-  Vec3 local(Vec3 point) const {
-    const Vec3 p = point - origin;
-    return {dot(axes.u, p), dot(axes.v, p), dot(axes.w, p)};
   }
 
   /// The points and a texel all around them: each look-up needs the centres on either side.
@@ -133,17 +123,20 @@ class DrawnMap {
         casters_(casters),
         id_(id),
         step_u_(plan.texel_u * plan.axes.u),
-        step_v_(plan.texel_v * plan.axes.v) {}
+        step_v_(plan.texel_v * plan.axes.v),
+        to_u_(1.0 / plan.texel_u * plan.axes.u),
+        to_v_(1.0 / plan.texel_v * plan.axes.v),
+        first_u_(dot(to_u_, plan.origin) + plan.corner_u / plan.texel_u + 0.5),
+        first_v_(dot(to_v_, plan.origin) + plan.corner_v / plan.texel_v + 0.5) {}
 
   /// Visible fraction of the light at a point of a surface.
   float lit_fraction(Vec3 point, Vec3 normal) const {
     if (!(dot(normal, plan_.axes.w) > 0.0)) return 0.0F;
-    const Vec3 at = plan_.local(point);
-    const double x = (at.x - plan_.corner_u) / plan_.texel_u - 0.5;
-    const double y = (at.y - plan_.corner_v) / plan_.texel_v - 0.5;
-    // The points lie half a texel or more inside the outermost centres, but for rounding.
-    const int i = std::clamp(static_cast<int>(std::floor(x)), 0, plan_.width - 2);
-    const int j = std::clamp(static_cast<int>(std::floor(y)), 0, plan_.height - 2);
+    const double x = dot(to_u_, point) - first_u_, y = dot(to_v_, point) - first_v_;
+    // The points lie half a texel or more inside the outermost centres, but for rounding; a
+    // coordinate that is no number goes to the edge.
+    const int i = static_cast<int>(std::min(std::max(0.0, x), plan_.width - 2.0));
+    const int j = static_cast<int>(std::min(std::max(0.0, y), plan_.height - 2.0));
     const auto width = static_cast<std::size_t>(plan_.width);
     const std::uint32_t* below =
         &id_[static_cast<std::size_t>(j) * width + static_cast<std::size_t>(i)];
@@ -215,7 +208,9 @@ class DrawnMap {
   const MapPlan& plan_;
   const CasterSet& casters_;
   const std::vector<std::uint32_t>& id_;
-  Vec3 step_u_, step_v_;  ///< from texel to texel
+  Vec3 step_u_, step_v_;      ///< from texel to texel
+  Vec3 to_u_, to_v_;          ///< from position to texels
+  double first_u_, first_v_;  ///< of the centre of the first texel
 };
 
 /// A context with the casters about one origin.

@@ -114,7 +114,9 @@ void all_cases(benchmark::internal::Benchmark* benchmark) {
     }
   }
   for (const int texels : {1024, 0}) benchmark->Args({2, 4'000'000, 2000, texels});
-  for (const int texels : {1024, 0}) benchmark->Args({2, 1'000'000, 250, texels});
+  for (const int points : {100, 1'000'000, 4'000'000}) {
+    for (const int texels : {1024, 0}) benchmark->Args({2, points, 250, texels});
+  }
 }
 BENCHMARK(BM_Directions)->Apply(all_cases);
 

@@ -37,10 +37,6 @@ std::vector<float> seen_from(const Visibility& engine, Vec3 toward, const Sensor
 }
 
 TEST(ShadowStability, GrazingLightLeavesNoAcneOnALargePlane) {
-  TestScene scene;
-  scene.quad({-2000, -2000, 0}, {2000, -2000, 3}, {2000, 2000, 5},
-             {-2000, 2000, 2});  // not quite flat
-  scene.level({-3000, -3000, 3000, 3000}, -1.0);
   const Sensors flat = level_grid(1900, 60, -1.0 + kLift);
   for (const bool square : {false, true}) {
     TestScene plane;
