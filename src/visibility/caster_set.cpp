@@ -121,18 +121,6 @@ Cover CasterSet::cover(std::uint32_t triangle, Vec3 point, const LightAxes& axes
   return Cover::Unknown;
 }
 
-double CasterSet::width_m(std::uint32_t triangle, Vec3 direction) const {
-  double longest = 0.0;
-  for (unsigned k = 0; k < 3; ++k) {
-    longest = std::max(
-        longest, length(cross(direction, corner(triangle, (k + 1) % 3) - corner(triangle, k))));
-  }
-  const double twice_area =
-      std::abs(dot(direction, cross(corner(triangle, 1) - corner(triangle, 0),
-                                    corner(triangle, 2) - corner(triangle, 0))));
-  return longest > 0.0 ? twice_area / longest : 0.0;
-}
-
 CasterSet::Selection CasterSet::before(const LightBox& box) const {
   Selection found{{}, box.high.z};
   for (const Chunk& chunk : chunk_) {

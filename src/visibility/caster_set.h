@@ -74,9 +74,6 @@ class CasterSet {
     return (dot(plane.normal, toward_light) < 0.0 ? -before : before) < -tolerance_m;
   }
 
-  /// Least width of a triangle seen along a direction, in metres.
-  double width_m(std::uint32_t triangle, Vec3 direction) const;
-
  private:
   struct Chunk {
     CasterRange range;

@@ -153,7 +153,7 @@ class DrawnMap {
     Open,     ///< its triangle cannot shade the point
     Hides,    ///< its triangle shades the point
     Beside,   ///< an outline of its triangle runs between
-    Blurred,  ///< its triangle shades something there, and is too narrow to tell what
+    Blurred,  ///< its triangle shades something there, too much lies between to tell what
   };
   struct Across {
     double u, v;  ///< texels from the point to the centre of the texel
@@ -199,10 +199,7 @@ class DrawnMap {
     const double depth =
         -(dot(plane.normal, point + way) - plane.offset) / dot(plane.normal, plan_.axes.w);
     if (!(dot(normal, way + depth * plan_.axes.w) > kRounding)) return Texel::Open;
-    const double wide = std::max(plan_.texel_u, plan_.texel_v);
-    return cover == Cover::Beside && casters_.width_m(triangle, plan_.axes.w) >= wide
-               ? Texel::Beside
-               : Texel::Blurred;
+    return cover == Cover::Beside ? Texel::Beside : Texel::Blurred;
   }
 
   const MapPlan& plan_;

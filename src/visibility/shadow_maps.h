@@ -30,10 +30,9 @@ struct ShadowMapOptions {
 ///  - Else the mesh is followed from that triangle to the point, at most a texel's diagonal. Where
 ///    it gets there, the point is hidden. Where an outline comes before, the texel does not hide
 ///    it.
-///  - Triangles narrower than a texel, or too many on the way, do not tell: the texel hides the
-///  point
-///    if the triangle stands, at the texel's centre, above the plane of the point's own surface,
-///    and counts with its bilinear weight (percentage-closer filtering).
+///  - Where too many triangles lie on the way, the texel hides the point if its triangle stands, at
+///    the texel's centre, above the plane of the point's own surface; it counts with its bilinear
+///    weight (percentage-closer filtering).
 /// No depth is compared, so there is no bias to choose. That of ordinary maps must allow for half a
 /// texel's diagonal times tan(i) on a surface inclined by i to the light, which opens a gap at the
 /// foot of walls; here surfaces do not shade themselves however low the light, and shadows begin at
@@ -47,7 +46,7 @@ struct ShadowMapOptions {
 ///          1987. One map per sky element: S. Takada, Y. Dobashi and T. Yamamoto (in Japanese).
 /// Frame    local east, north, up, any distance from the origin: what is drawn is moved near zero.
 /// Error    outlines of what is wider than a texel are as exact as rays. What is narrower than a
-///          texel may be missed, or be seen up to a texel wide.
+///          texel, and joined to nothing wider, may be missed.
 /// Threads  may be shared: each call that draws takes a context of its own from a pool. The result
 ///          does not depend on how many there are.
 /// Cost     one drawing of the casters that overlap the points' extent, for each direction. One map

@@ -174,6 +174,29 @@ TEST(ShadowStability, OneTriangleOfTenKilometresIsDrawnInPlace) {
   EXPECT_EQ(found.worst_explained, found.worst_pairs);
 }
 
+// Beside its outline a fine mesh is known by triangles next to those that the texels show.
+TEST(ShadowStability, AFinelyMeshedRoofIsSharpAtItsEdges) {
+  TestScene scene;
+  scene.level({-30, -30, 30, 30}, 0.0);
+  scene.begin_object();
+  const auto at = [](double x, double y) {
+    return Vec3{x, y, 8.0 + 0.3 * std::sin(0.7 * x) * std::cos(0.6 * y)};
+  };
+  for (double x = -10; x < 10; x += 0.5) {
+    for (double y = -10; y < 10; y += 0.5) {
+      scene.quad(at(x, y), at(x + 0.5, y), at(x + 0.5, y + 0.5), at(x, y + 0.5));
+    }
+  }
+  const RayVisibility rays(scene.soup, scene.materials);
+  const ShadowMaps maps(scene.soup, scene.materials, software(200));
+  const Sensors sensors = level_grid(29, 100, kLift);
+  const auto found =
+      testing_support::compare_engines(rays, maps, sensors, testing_support::even_directions(60));
+  testing_support::print("a finely meshed roof", found);
+  EXPECT_LE(found.pair_mean, 1e-4);
+  EXPECT_EQ(found.worst_explained, found.worst_pairs);
+}
+
 TEST(ShadowStability, ACityWithoutHeightIsOpen) {
   TestScene scene;
   scene.level({-50, -50, 50, 50}, 0.0);
