@@ -105,7 +105,9 @@ void BM_Directions(benchmark::State& state) {
 }
 
 void all_cases(benchmark::internal::Benchmark* benchmark) {
-  benchmark->ArgNames({"threads", "points", "half_m", "texels"})->MeasureProcessCPUTime()->UseRealTime();
+  benchmark->ArgNames({"threads", "points", "half_m", "texels"})
+      ->MeasureProcessCPUTime()
+      ->UseRealTime();
   benchmark->Unit(benchmark::kMillisecond);
   for (const int threads : {1, 2}) {
     for (const int texels : {512, 1024, 2048}) benchmark->Args({threads, 100, 2000, texels});
