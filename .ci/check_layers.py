@@ -2,8 +2,8 @@
 """Fails if a module includes a header of a module below it, or a package where it may not be.
 
 The order is that of add_subdirectory in the top CMakeLists.txt: the flow of the light. Headers
-include the standard library and our own headers only; Embree, TBB, OpenImageIO and VTK are each
-named in one source file. check_layers.py [ROOT]
+include the standard library and our own headers only; Embree, TBB, OpenImageIO, VTK, EGL and
+OSMesa are each named in one source file. check_layers.py [ROOT]
 """
 
 import pathlib
@@ -13,7 +13,8 @@ import sys
 NOT_MODULES = {"tests", "cmake"}
 ONLY_IN = {"embree": "src/visibility/ray_visibility.cpp", "tbb/": "src/core/parallel.cpp",
            "oneapi/tbb": "src/core/parallel.cpp", "OpenImageIO/": "src/pictures/oiio_codec.cpp",
-           "vtk": "src/output/vtk_codec.cpp"}
+           "vtk": "src/output/vtk_codec.cpp", "EGL/": "src/visibility/gl_context.cpp",
+           "GL/osmesa": "src/visibility/gl_context.cpp"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 

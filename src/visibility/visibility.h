@@ -23,6 +23,13 @@ class Visibility {
   /// Shape    all three [pair].
   virtual void transmission(std::span<const Vec3> origin, std::span<const Vec3> direction,
                             std::span<float> result) const = 0;
+
+  /// Transmitted fraction, 0 to 1, from one direction to many points: what engines that prepare a
+  /// direction do at once. Nothing comes from behind the surface of a point.
+  /// @param normal  unit, of the surface that each point lies on; may be empty
+  /// Shape    `point`, `result` and, unless empty, `normal` [point].
+  virtual void transmission_from(Vec3 direction, std::span<const Vec3> point,
+                                 std::span<const Vec3> normal, std::span<float> result) const;
 };
 
 }  // namespace tenku

@@ -1,0 +1,148 @@
+#include "visibility/caster_set.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace tenku {
+namespace {
+
+constexpr std::uint32_t kChunk = 128;  // casters in one box
+
+struct Bounds {
+  Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+
+  void add(Vec3 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+};
+
+/// Bits of a number of 16 bits, each with two zeros after it.
+std::uint64_t spread(std::uint64_t bits) {
+  std::uint64_t wide = 0;
+  for (unsigned k = 0; k < 16; ++k) wide |= (bits >> k & 1U) << (3 * k);
+  return wide;
+}
+
+/// Place on the Z-shaped curve through the bounds: near numbers are near in space.
+std::uint64_t curve_place(Vec3 p, const Bounds& bounds) {
+  const auto step = [](double x, double low, double high) {
+    const double share = high > low ? (x - low) / (high - low) : 0.0;
+    return spread(static_cast<std::uint64_t>(65535.0 * std::clamp(share, 0.0, 1.0)));
+  };
+  return step(p.x, bounds.low.x, bounds.high.x) | step(p.y, bounds.low.y, bounds.high.y) << 1U |
+         step(p.z, bounds.low.z, bounds.high.z) << 2U;
+}
+
+double reach(Vec3 axis, Vec3 half) {
+  return std::abs(axis.x) * half.x + std::abs(axis.y) * half.y + std::abs(axis.z) * half.z;
+}
+
+}  // namespace
+
+LightAxes::LightAxes(Vec3 direction) : w(direction) {
+  const double level = std::hypot(w.x, w.y);
+  u = level > 1e-9 ? Vec3{-w.y / level, w.x / level, 0.0} : Vec3{1.0, 0.0, 0.0};
+  v = cross(w, u);
+}
+
+CasterSet::CasterSet(const TriangleSoup& soup, const std::vector<Material>& materials)
+    : soup_(soup), adjacency_(soup), plane_(soup.size()) {
+  Bounds all;
+  for (const Vec3& v : soup.vertices) all.add(v);
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> places;
+  for (std::uint32_t t = 0; t < soup.size(); ++t) {
+    if (materials[soup.material[t]].is_glass()) continue;
+    const Vec3 a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
+    const Vec3 normal = normalized(cross(b - a, c - a));
+    if (!is_finite(normal)) continue;
+    plane_[t] = {normal, dot(normal, a)};
+    places.emplace_back(curve_place((1.0 / 3.0) * (a + b + c), all), t);
+  }
+  std::sort(places.begin(), places.end());
+  for (const auto& [place, t] : places) order_.push_back(t);
+  const auto count = static_cast<std::uint32_t>(order_.size());
+  for (std::uint32_t first = 0; first < count; first += kChunk) {
+    const CasterRange range{first, std::min(kChunk, count - first)};
+    Bounds bounds;
+    for (std::uint32_t k = 0; k < 3 * range.count; ++k) {
+      bounds.add(corner(order_[first + k / 3], k % 3));
+    }
+    chunk_.push_back({range, 0.5 * (bounds.low + bounds.high), 0.5 * (bounds.high - bounds.low)});
+  }
+}
+
+std::vector<CasterVertex> CasterSet::vertices(Vec3 origin) const {
+  std::vector<CasterVertex> made;
+  made.reserve(3 * order_.size());
+  for (const std::uint32_t t : order_) {
+    for (unsigned k = 0; k < 3; ++k) {
+      const Vec3 p = corner(t, k) - origin;
+      made.push_back(
+          {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z), t + 1});
+    }
+  }
+  return made;
+}
+
+Cover CasterSet::cover(std::uint32_t triangle, Vec3 point, const LightAxes& axes,
+                       double tolerance_m) const {
+  constexpr int kSteps = 12;
+  struct Seen {
+    double u, v;  // from the point, as the light sees it
+  };
+  const auto seen = [&](std::uint32_t t, unsigned k) {
+    const Vec3 from_point = corner(t, k) - point;
+    return Seen{dot(axes.u, from_point), dot(axes.v, from_point)};
+  };
+  // The sign tells the side of an edge; it is the same for both triangles that share the edge.
+  const auto turn = [](Seen a, Seen b) { return a.u * b.v - a.v * b.u; };
+  for (int step = 0; step < kSteps; ++step) {
+    const std::array<Seen, 3> at{seen(triangle, 0), seen(triangle, 1), seen(triangle, 2)};
+    const std::array<double, 3> side{turn(at[0], at[1]), turn(at[1], at[2]), turn(at[2], at[0])};
+    const double area = side[0] + side[1] + side[2];
+    if (area == 0.0) return Cover::Beside;  // seen edge-on
+    const double sense = area > 0.0 ? 1.0 : -1.0;
+    unsigned out = 0;
+    while (out < 3 && sense * side[out] >= 0.0) ++out;
+    if (out == 3) {
+      return is_behind(triangle, point, axes.w, tolerance_m) ? Cover::Hides : Cover::Beside;
+    }
+    const std::uint32_t opposite = adjacency_.opposite(triangle, out);
+    if (opposite == MeshAdjacency::kNone || !is_caster(opposite / 3)) return Cover::Beside;
+    triangle = opposite / 3;
+    const Seen a = at[out], b = at[(out + 1) % 3];
+    const Seen c = seen(triangle, (opposite + 2) % 3);
+    const double beyond = turn({a.u - c.u, a.v - c.v}, {b.u - c.u, b.v - c.v});
+    if (!(sense * beyond < 0.0)) return Cover::Beside;  // where the mesh turns back is its outline
+  }
+  return Cover::Unknown;
+}
+
+CasterSet::Selection CasterSet::before(const LightBox& box) const {
+  Selection found{{}, box.high.z};
+  for (const Chunk& chunk : chunk_) {
+    const auto overlaps = [&](Vec3 axis, double low, double high) {
+      const double at = dot(axis, chunk.centre), about = reach(axis, chunk.half);
+      return at + about >= low && at - about <= high;
+    };
+    if (!overlaps(box.axes.u, box.low.x, box.high.x) ||
+        !overlaps(box.axes.v, box.low.y, box.high.y)) {
+      continue;
+    }
+    const double top = dot(box.axes.w, chunk.centre) + reach(box.axes.w, chunk.half);
+    if (top < box.low.z) continue;
+    found.nearest = std::max(found.nearest, top);
+    auto& ranges = found.casters;
+    if (!ranges.empty() && ranges.back().first + ranges.back().count == chunk.range.first) {
+      ranges.back().count += chunk.range.count;
+    } else {
+      ranges.push_back(chunk.range);
+    }
+  }
+  return found;
+}
+
+}  // namespace tenku

@@ -1,0 +1,94 @@
+/// The opaque triangles of a scene in an order in which neighbours in space are neighbours.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "scene/material.h"
+#include "scene/triangle_soup.h"
+#include "visibility/caster_map.h"
+#include "visibility/mesh_adjacency.h"
+
+namespace tenku {
+
+/// Plane of a triangle: the points x with dot(normal, x) = offset.
+struct CasterPlane {
+  Vec3 normal;    ///< unit
+  double offset;  ///< metres
+};
+
+/// Axes across the light: unit vectors at right angles, u level, v upward, w toward the light.
+struct LightAxes {
+  Vec3 u, v, w;
+
+  explicit LightAxes(Vec3 direction);
+};
+
+/// A part of space seen along a direction: coordinates along u, v and w as x, y and z.
+struct LightBox {
+  LightAxes axes;
+  Vec3 low, high;
+};
+
+/// How a triangle lies to a point, seen along a direction.
+enum class Cover {
+  Hides,    ///< the light meets it, or one joined to it, on the way to the point
+  Beside,   ///< its outline, or that of what is joined to it, runs between the two
+  Unknown,  ///< too many triangles lie between the two
+};
+
+/// Casters of shadows, in chunks with boxes about them. Triangles without an area cast none, nor
+/// does glass.
+///
+/// Threads  immutable after construction; may be shared.
+class CasterSet {
+ public:
+  /// @param soup  kept by reference: it must outlive this object
+  CasterSet(const TriangleSoup& soup, const std::vector<Material>& materials);
+
+  /// Plane of a triangle of the soup that is a caster.
+  const CasterPlane& plane(std::uint32_t triangle) const { return plane_[triangle]; }
+
+  /// The casters about a local origin, numbered by their triangle in the soup, from 1.
+  /// Shape  [caster][3].
+  std::vector<CasterVertex> vertices(Vec3 origin) const;
+
+  /// The casters whose chunk overlaps the box sideways and reaches its far end at least. A chunk
+  /// nearer to the light than the box counts.
+  struct Selection {
+    std::vector<CasterRange> casters;
+    double nearest = 0.0;  ///< greatest coordinate along w of any of them
+  };
+  Selection before(const LightBox& box) const;
+
+  /// Goes over the mesh from a triangle to the one that the line from `point` to the light meets.
+  /// @param tolerance_m  as in `is_behind`
+  Cover cover(std::uint32_t triangle, Vec3 point, const LightAxes& axes, double tolerance_m) const;
+
+  /// Whether the plane of a triangle lies between a point and the light, by more than the
+  /// tolerance.
+  bool is_behind(std::uint32_t triangle, Vec3 point, Vec3 toward_light, double tolerance_m) const {
+    const CasterPlane& plane = plane_[triangle];
+    const double before = dot(plane.normal, point) - plane.offset;
+    return (dot(plane.normal, toward_light) < 0.0 ? -before : before) < -tolerance_m;
+  }
+
+ private:
+  struct Chunk {
+    CasterRange range;
+    Vec3 centre, half;
+  };
+  bool is_caster(std::uint32_t triangle) const { return plane_[triangle].normal != Vec3{}; }
+  Vec3 corner(std::uint32_t triangle, unsigned k) const {
+    return soup_.vertices[soup_.triangles[triangle][k]];
+  }
+
+  const TriangleSoup& soup_;
+  MeshAdjacency adjacency_;
+  std::vector<CasterPlane> plane_;    ///< [triangle], zero where it is no caster
+  std::vector<std::uint32_t> order_;  ///< triangles, neighbours in space near each other
+  std::vector<Chunk> chunk_;
+};
+
+}  // namespace tenku
