@@ -242,6 +242,7 @@ def main():
     parser.add_argument("--scenes", default="city,room")
     parser.add_argument("--rounds", type=int, default=5, help="of tenku; Radiance has every other")
     options = parser.parse_args()
+    options.out.mkdir(parents=True, exist_ok=True)
     work = pathlib.Path(tempfile.mkdtemp(prefix="against_radiance_"))
     rows = []
     for scene in (CITY, ROOM):
