@@ -1,7 +1,9 @@
 /// Random numbers addressed by what they are for, not by when they are drawn.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <initializer_list>
 
 namespace tenku {
 
@@ -13,6 +15,12 @@ constexpr std::uint64_t mix_bits(std::uint64_t z) {
   z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
   z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
   return z ^ (z >> 31U);
+}
+
+/// Hash of numbers rounded to integers, on top of `key`: equal for what lies in one cell.
+inline std::uint64_t mix_rounded(std::uint64_t key, std::initializer_list<double> numbers) {
+  for (const double x : numbers) key = mix_bits(key + static_cast<std::uint64_t>(std::llround(x)));
+  return key;
 }
 
 /// Stream of uniform numbers belonging to one sample of one sensor of one study.

@@ -51,6 +51,12 @@ int append_pieces(const SensorSight& sight, Vec3 along, double low, double high,
   return 2 * parts;
 }
 
+LuxAndView light_through(const SliceLight& light, std::span<const SeenPiece> pieces) {
+  LuxAndView sum;
+  for (const SeenPiece& p : pieces) sum = sum + p.transmittance * light.both(p.low, p.high);
+  return sum;
+}
+
 OutlineGap::OutlineGap(const SkySlice& left, const SkySlice& right, double width_rad,
                        const SensorSight& sight)
     : left_(left), right_(right), width_(width_rad), sight_(sight) {
@@ -96,11 +102,7 @@ LuxAndView OutlineGap::seen(const Bearing& bearing, Sides sides) const {
   std::vector<SeenPiece> pieces;
   rays_sent_ += static_cast<std::uint64_t>(
       append_pieces(sight_, bearing.along, low.radians, high.radians, pieces));
-  LuxAndView sum;
-  for (const SeenPiece& p : pieces) {
-    sum = sum + p.transmittance * light.both(Altitude::of(p.low), Altitude::of(p.high));
-  }
-  return sum;
+  return light_through(light, pieces);
 }
 
 LuxAndView OutlineGap::at(const Bearing& bearing) const {
@@ -114,8 +116,7 @@ LuxAndView OutlineGap::at(const Bearing& bearing) const {
 LuxAndView OutlineGap::open_at(const Bearing& bearing) const {
   const SliceLight light(sight_.table, sight_.normal, left_.azimuth + bearing.offset,
                          bearing.along);
-  const auto [low, high] = light.front();
-  return low < high ? light.both(low, high) : LuxAndView{};
+  return light.is_behind() ? LuxAndView{} : light.both(light.low(), light.high());
 }
 
 LuxAndView OutlineGap::left_end() const {

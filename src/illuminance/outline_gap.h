@@ -1,7 +1,9 @@
 /// The sky between two slices, told by the outlines that they have met.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "illuminance/outline_segment.h"
@@ -15,7 +17,6 @@ struct SkySlice {
   double azimuth = 0.0;      ///< radians, clockwise from north
   Vec3 along;                ///< horizontal unit vector toward it
   LuxAndView light;          ///< per radian of azimuth
-  double transmitted = 1.0;  ///< share of the light in the visible range that panes let through
   OutlineSegment low, high;  ///< what bounds the visible range
   bool is_behind = false;    ///< wholly behind the sensor
   bool is_open = false;      ///< some sky is visible
@@ -39,6 +40,9 @@ struct SeenPiece {
 /// returns the rays sent.
 int append_pieces(const SensorSight& sight, Vec3 along, double low, double high,
                   std::vector<SeenPiece>& pieces);
+
+/// Light through the pieces of one half-plane.
+LuxAndView light_through(const SliceLight& light, std::span<const SeenPiece> pieces);
 
 /// The gap between two neighbouring slices of one sensor.
 ///

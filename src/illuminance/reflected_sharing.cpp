@@ -20,25 +20,18 @@ constexpr double k95 = 1.96;           // standard errors in an interval
 bool is_flat_normal(Vec3 normal) { return std::abs(normal.z) > 0.9; }
 
 std::uint64_t plane_of(Vec3 n, Vec3 p) {
-  std::uint64_t plane = 0;
   // A gently rolling ground is one surface: only what is steep is told apart by its offset.
   const bool flat = is_flat_normal(n);
+  const double steps = flat ? kNormalSteps / 10.0 : kNormalSteps;
   const double offset = flat ? 0.0 : kOffsetSteps * dot(n, p);
-  for (const double part : {kNormalSteps * n.x, kNormalSteps * n.y, kNormalSteps * n.z, offset}) {
-    const double step = flat ? part / 10.0 : part;
-    plane = mix_bits(plane + static_cast<std::uint64_t>(std::llround(step)));
-  }
-  return plane;
+  return mix_rounded(0, {steps * n.x, steps * n.y, steps * n.z, offset});
 }
 
 }  // namespace
 
 std::uint64_t facing(Vec3 normal) {
-  std::uint64_t key = 0;
-  for (const double part : {normal.x, normal.y, normal.z}) {
-    key = mix_bits(key + static_cast<std::uint64_t>(std::llround(kFacingSteps * part)));
-  }
-  return key;
+  return mix_rounded(0,
+                     {kFacingSteps * normal.x, kFacingSteps * normal.y, kFacingSteps * normal.z});
 }
 
 SharingLayout sharing_by_distance(const Sensors& sensors, double distance_m) {
@@ -72,13 +65,10 @@ ReflectedSharing::ReflectedSharing(const Sensors& sensors, SharingLayout layout)
 }
 
 std::uint64_t ReflectedSharing::cell_key(std::size_t sensor, Vec3 steps_away) const {
-  std::uint64_t key = layout_.surface[sensor];
   const Vec3 place = layout_.place[sensor];
-  for (const double x : {std::floor(place.x) + steps_away.x, std::floor(place.y) + steps_away.y,
-                         std::floor(place.z) + steps_away.z}) {
-    key = mix_bits(key + static_cast<std::uint64_t>(static_cast<std::int64_t>(x)));
-  }
-  return key;
+  return mix_rounded(layout_.surface[sensor],
+                     {std::floor(place.x) + steps_away.x, std::floor(place.y) + steps_away.y,
+                      std::floor(place.z) + steps_away.z});
 }
 
 bool ReflectedSharing::is_seen(std::size_t sensor, std::size_t other,

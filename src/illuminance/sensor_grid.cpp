@@ -62,11 +62,9 @@ class GridBuilder {
 
   void add_single(const Corners& corners, double area) {
     const Vec3 m = corners.middle();
-    std::uint64_t key = static_cast<std::uint64_t>(type_);
-    for (const double part : {m.x / spacing_, m.y / spacing_, m.z / spacing_, 8.0 * normal_.x,
-                              8.0 * normal_.y, 8.0 * normal_.z}) {
-      key = mix_bits(key + static_cast<std::uint64_t>(std::llround(part)));
-    }
+    const std::uint64_t key = mix_rounded(static_cast<std::uint64_t>(type_),
+                                          {m.x / spacing_, m.y / spacing_, m.z / spacing_,
+                                           8.0 * normal_.x, 8.0 * normal_.y, 8.0 * normal_.z});
     const auto [found, is_new] =
         grid_.shared.emplace(key, static_cast<std::uint32_t>(grid_.sensors.size()));
     const std::uint32_t sensor = found->second;

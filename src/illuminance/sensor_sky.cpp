@@ -58,7 +58,6 @@ void SensorSky::refine(double enough) {
 /// found is then part of the slices, and new slices must be checked in the place of all.
 void SensorSky::trace_again() {
   for (Entry& entry : entry_) entry.slice = make_slice(entry.slice.azimuth, 0, 0.0);
-  for (Entry& entry : entry_) entry.is_new = true;
   checks_ = {};
   unchecked_ = true;
   ++traced_again_;
@@ -109,7 +108,7 @@ void SensorSky::fill_gaps() {
   entry_ = std::move(refined);
 }
 
-/// Whether the checks have nothing more to tell: slices of halved gaps are not checked.
+/// Whether the checks have nothing more to tell: slices that fill gaps are not checked.
 bool SensorSky::has_sure_claims() const {
   constexpr double kSure = 1e-4;  // of the value
   return checks_.lux_squared <= square(kSure * lux_) &&
@@ -125,11 +124,11 @@ SensorSky::GapLight SensorSky::gap_light(std::size_t i) {
   const OutlineGap gap(at(i), at(i + 1), width_after(i), sight_);
   GapLight result;
   result.known = gap.known();
-  pane_rays_ += gap.rays_sent();
   result.hole_width = gap.hole();
+  if (result.hole_width > 0.0) result.hole = gap.hole_light();
+  pane_rays_ += gap.rays_sent();
   if (!(result.hole_width > 0.0)) return result;
   result.hole_begin = gap.hole_begin().offset;
-  result.hole = gap.hole_light();
   result.is_blind = !gap.is_between_outlines();
   if (!result.is_blind) {
     const Bearing middle = middle_of(gap.hole_begin(), gap.hole_end());
@@ -226,7 +225,7 @@ SkySlice SensorSky::make_slice(double azimuth_rad, int checks, double weight) {
   slice.along = {std::sin(azimuth_rad), std::cos(azimuth_rad), 0.0};
   const SliceLight light(sight_.table, sight_.normal, azimuth_rad, slice.along);
   const auto [low, high] = light.front();
-  slice.is_behind = !(low < high);
+  slice.is_behind = light.is_behind();
   if (slice.is_behind) return slice;
   const VisibleSlice visible = tracer_.trace(slice.along, low, high);
   slice.is_open = visible.count > 0;
@@ -236,9 +235,7 @@ SkySlice SensorSky::make_slice(double azimuth_rad, int checks, double weight) {
     pane_rays_ += static_cast<std::uint64_t>(
         append_pieces(sight_, slice.along, range.low, range.high, piece_));
   }
-  for (const SeenPiece& p : piece_) {
-    slice.light = slice.light + p.transmittance * light.both(p.low, p.high);
-  }
+  slice.light = light_through(light, piece_);
   bound(slice, visible, low, high);
   if (checks > 0) check(light, checks, weight);
   return slice;
@@ -317,10 +314,11 @@ bool SensorSky::outlines_tell() const {
   }
   double sum = 0.0, squares = 0.0;
   for (std::size_t i = 0; i < entry_.size(); ++i) {
-    sum += gap_variance(i);
-    squares += square(gap_variance(i));
+    const double variance = gap_variance(i);
+    sum += variance;
+    squares += square(variance);
   }
-  return slices() >= kFewest && square(sum) <= kFewPlaces * squares * slices();
+  return square(sum) <= kFewPlaces * squares * slices();
 }
 
 SensorSky::Sum SensorSky::outlined_sum() const {

@@ -57,9 +57,7 @@ Cell cell_of(std::uint32_t triangle, bool front, Vec3 point, double distance_m) 
                k = std::floor(point.z / pitch);
   std::uint64_t key = mix_bits(2 * std::uint64_t{triangle} + (front ? 1 : 0));
   key = mix_bits(key + static_cast<std::uint64_t>(level + 64));
-  for (const double index : {i, j, k}) {
-    key = mix_bits(key + static_cast<std::uint64_t>(static_cast<std::int64_t>(index)));
-  }
+  key = mix_rounded(key, {i, j, k});
   return {key, {(i + 0.5) * pitch, (j + 0.5) * pitch, (k + 0.5) * pitch}, pitch};
 }
 

@@ -18,12 +18,8 @@ constexpr double kHill_m = 20.0;  // beyond, a level ground is a poor one
 constexpr double kLeastMargin_m = 100.0, kMarginPerHeight = 3.0;
 
 Extent local_extent(const Scene& scene) {
-  Extent box{scene.vertices.front(), scene.vertices.front()};
-  for (const std::uint32_t v : scene.surfaces.vertex) {
-    const Vec3 p = scene.vertices[v];
-    box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y), std::min(box.min.z, p.z)};
-    box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y), std::max(box.max.z, p.z)};
-  }
+  Extent box;
+  for (const std::uint32_t v : scene.surfaces.vertex) box.add(scene.vertices[v]);
   return box;
 }
 

@@ -13,11 +13,8 @@ constexpr double kHighest_m = 10000.0;  // no ground is higher; heights beyond a
 constexpr double kDegreesBeyond = 2.0;  // tolerance about the area of use of a CRS
 
 Extent extent_of(const std::vector<Vec3>& points) {
-  Extent box{points.front(), points.front()};
-  for (const Vec3 p : points) {
-    box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y), std::min(box.min.z, p.z)};
-    box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y), std::max(box.max.z, p.z)};
-  }
+  Extent box;
+  for (const Vec3 p : points) box.add(p);
   return box;
 }
 

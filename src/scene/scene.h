@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/extent.h"
 #include "core/finding.h"
 #include "core/vec3.h"
 #include "scene/file_frame.h"
@@ -54,11 +55,6 @@ struct Surfaces {
     return {vertex.data() + first_vertex[r], first_vertex[r + 1] - first_vertex[r]};
   }
   std::span<const std::uint32_t> outer_ring(std::size_t s) const { return ring(first_ring[s]); }
-};
-
-/// Axis-parallel box.
-struct Extent {
-  Vec3 min{}, max{};
 };
 
 /// Everything that was read from one scene file, and what was found wrong with it.

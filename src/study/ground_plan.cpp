@@ -12,26 +12,8 @@ namespace {
 constexpr double kMostCells = 60000.0;
 constexpr int kMostCrowns = 16;  // layers of leaves over the ground
 
-struct Box {
-  Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-
-  void add(Vec3 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-};
-
 bool is_given(const LitScene& lit, std::uint32_t triangle) {
   return lit.scene().objects[lit.soup().object[triangle]].id == kGroundObjectId;
-}
-
-Box box_of(const LitScene& lit) {
-  Box box;
-  for (std::uint32_t t = 0; t < lit.soup().size(); ++t) {
-    if (is_given(lit, t)) continue;
-    for (const std::uint32_t v : lit.soup().triangles[t]) box.add(lit.soup().vertices[v]);
-  }
-  return box;
 }
 
 bool is_ground(SurfaceType type) {
@@ -72,13 +54,13 @@ void GroundPlan::fill(const SensorIlluminance& values) {
 }
 
 GroundPlan ground_plan(const LitScene& lit, double spacing_m) {
-  const Box box = box_of(lit);
-  const double width = box.high.x - box.low.x, height = box.high.y - box.low.y;
+  const Extent box = lit.extent();
+  const double width = box.size().x, height = box.size().y;
   GroundPlan plan;
   PlanGrid& grid = plan.grid;
   grid.cell_m = std::max(spacing_m, std::sqrt(width * height / kMostCells));
-  grid.west = box.low.x;
-  grid.north = box.high.y;
+  grid.west = box.min.x;
+  grid.north = box.max.y;
   grid.columns = std::max(1, static_cast<int>(std::ceil(width / grid.cell_m)));
   grid.rows = std::max(1, static_cast<int>(std::ceil(height / grid.cell_m)));
   const auto cells = static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows);
@@ -89,7 +71,7 @@ GroundPlan ground_plan(const LitScene& lit, double spacing_m) {
       const auto column = static_cast<double>(k % static_cast<std::size_t>(grid.columns));
       const auto row = static_cast<double>(k / static_cast<std::size_t>(grid.columns));
       ground[k] = ground_below(lit, {grid.west + (column + 0.5) * grid.cell_m,
-                                     grid.north - (row + 0.5) * grid.cell_m, box.high.z + 1.0});
+                                     grid.north - (row + 0.5) * grid.cell_m, box.max.z + 1.0});
     }
   });
   for (std::size_t k = 0; k < cells; ++k) {

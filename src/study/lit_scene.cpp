@@ -91,6 +91,15 @@ Sensors LitScene::to_local(const Sensors& in_file) const {
   return local;
 }
 
+Extent LitScene::extent() const {
+  Extent box;
+  for (std::size_t t = 0; t < soup_->size(); ++t) {
+    if (scene_.objects[soup_->object[t]].id == kGroundObjectId) continue;
+    for (const std::uint32_t v : soup_->triangles[t]) box.add(soup_->vertices[v]);
+  }
+  return box;
+}
+
 SensorGrid LitScene::grid(std::span<const std::string> surfaces, double spacing_m) const {
   std::array<bool, kSurfaceTypes> wanted{};
   for (const std::string& name : surfaces) {

@@ -40,6 +40,8 @@ class LitScene {
   const Sky& sky() const { return sky_; }
   const DaylightSource& source() const { return source_; }
   std::optional<Location> site() const;
+  /// Of the triangles in the local frame, without the ground that tenku gave.
+  Extent extent() const;
 
   /// Sensors given in the coordinates of the scene file, in the local frame.
   Sensors to_local(const Sensors& in_file) const;

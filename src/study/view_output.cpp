@@ -69,23 +69,15 @@ void check_picture_ending(const std::filesystem::path& path) {
 }
 
 void place_overview(const LitScene& lit, PerspectiveView& view) {
-  Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-  for (std::size_t t = 0; t < lit.soup().size(); ++t) {
-    if (lit.scene().objects[lit.soup().object[t]].id == kGroundObjectId) continue;
-    for (const std::uint32_t v : lit.soup().triangles[t]) {
-      const Vec3& p = lit.soup().vertices[v];
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-  }
-  const Vec3 middle = 0.5 * (low + high), size = high - low;
+  const Extent box = lit.extent();
+  const Vec3 size = box.size();
   const double across = std::max(std::hypot(size.x, size.y), size.z);
   const double aspect = static_cast<double>(view.height) / view.width;
   const double half =
       std::tan(0.5 * view.horizontal_fov.in_radians()) * std::min(1.0, 1.6 * aspect);
   const double away = 0.42 * across / std::max(half, 0.05);
-  view.target = middle;
-  view.eye = middle + away * direction_from(Angle::degrees(215.0), Angle::degrees(32.0));
+  view.target = box.middle();
+  view.eye = view.target + away * direction_from(Angle::degrees(215.0), Angle::degrees(32.0));
 }
 
 Image8 picture_of(const RenderedView& view, ViewKind kind) {

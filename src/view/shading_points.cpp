@@ -35,11 +35,8 @@ struct PixelPoints {
 std::uint64_t surface_key(const RayVisibility& rays, std::uint32_t triangle, Vec3 normal) {
   const TriangleSoup& soup = rays.soup();
   const double offset = dot(normal, soup.vertices[soup.triangles[triangle][0]]);
-  std::uint64_t key = mix_bits(soup.object[triangle]);
-  for (const double part : {100.0 * normal.x, 100.0 * normal.y, 100.0 * normal.z, 5.0 * offset}) {
-    key = mix_bits(key + static_cast<std::uint64_t>(std::llround(part)));
-  }
-  return key;
+  return mix_rounded(mix_bits(soup.object[triangle]),
+                     {100.0 * normal.x, 100.0 * normal.y, 100.0 * normal.z, 5.0 * offset});
 }
 
 class PixelTracer {

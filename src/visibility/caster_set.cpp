@@ -5,19 +5,12 @@
 #include <cmath>
 #include <utility>
 
+#include "core/extent.h"
+
 namespace tenku {
 namespace {
 
 constexpr std::uint32_t kChunk = 128;  // casters in one box
-
-struct Bounds {
-  Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-
-  void add(Vec3 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-};
 
 /// Bits of a number of 16 bits, each with two zeros after it.
 std::uint64_t spread(std::uint64_t bits) {
@@ -27,13 +20,13 @@ std::uint64_t spread(std::uint64_t bits) {
 }
 
 /// Place on the Z-shaped curve through the bounds: near numbers are near in space.
-std::uint64_t curve_place(Vec3 p, const Bounds& bounds) {
+std::uint64_t curve_place(Vec3 p, const Extent& bounds) {
   const auto step = [](double x, double low, double high) {
     const double share = high > low ? (x - low) / (high - low) : 0.0;
     return spread(static_cast<std::uint64_t>(65535.0 * std::clamp(share, 0.0, 1.0)));
   };
-  return step(p.x, bounds.low.x, bounds.high.x) | step(p.y, bounds.low.y, bounds.high.y) << 1U |
-         step(p.z, bounds.low.z, bounds.high.z) << 2U;
+  return step(p.x, bounds.min.x, bounds.max.x) | step(p.y, bounds.min.y, bounds.max.y) << 1U |
+         step(p.z, bounds.min.z, bounds.max.z) << 2U;
 }
 
 double reach(Vec3 axis, Vec3 half) {
@@ -50,7 +43,7 @@ LightAxes::LightAxes(Vec3 direction) : w(direction) {
 
 CasterSet::CasterSet(const TriangleSoup& soup, const std::vector<Material>& materials)
     : soup_(soup), adjacency_(soup), plane_(soup.size()) {
-  Bounds all;
+  Extent all;
   for (const Vec3& v : soup.vertices) all.add(v);
   std::vector<std::pair<std::uint64_t, std::uint32_t>> places;
   for (std::uint32_t t = 0; t < soup.size(); ++t) {
@@ -66,11 +59,11 @@ CasterSet::CasterSet(const TriangleSoup& soup, const std::vector<Material>& mate
   const auto count = static_cast<std::uint32_t>(order_.size());
   for (std::uint32_t first = 0; first < count; first += kChunk) {
     const CasterRange range{first, std::min(kChunk, count - first)};
-    Bounds bounds;
+    Extent bounds;
     for (std::uint32_t k = 0; k < 3 * range.count; ++k) {
       bounds.add(corner(order_[first + k / 3], k % 3));
     }
-    chunk_.push_back({range, 0.5 * (bounds.low + bounds.high), 0.5 * (bounds.high - bounds.low)});
+    chunk_.push_back({range, bounds.middle(), 0.5 * bounds.size()});
   }
 }
 

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/extent.h"
 #include "core/parallel.h"
 #include "visibility/caster_map.h"
 #include "visibility/caster_set.h"
@@ -29,16 +30,6 @@ constexpr double kOriginPitch = 4096.0;
 constexpr double kDepthReach = 16384.0;
 constexpr std::size_t kGrain = 4096;  // points in a task
 
-/// Extent of points along the axes of the light.
-struct Extent {
-  Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high = -low;
-
-  void add(Vec3 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-};
-
 /// Where a map lies and how it is divided.
 struct MapPlan {
   LightAxes axes;
@@ -50,7 +41,8 @@ struct MapPlan {
 
   MapPlan(Vec3 direction, std::span<const Vec3> points, const ShadowMapOptions& options)
       : axes(direction) {
-    std::vector<Extent> parts((points.size() + kGrain - 1) / kGrain);
+    std::vector<Extent> parts(  // along the axes of the light
+        (points.size() + kGrain - 1) / kGrain);
     parallel_for(parts.size(), 1, [&](IndexRange range) {
       for (std::size_t k = range.begin; k < range.end; ++k) {
         Extent part;
@@ -62,13 +54,13 @@ struct MapPlan {
       }
     });
     Extent all;
-    for (const Extent& part : parts) all.add(part.low), all.add(part.high);
-    const Vec3 middle = 0.5 * (all.low + all.high);
+    for (const Extent& part : parts) all.add(part.min), all.add(part.max);
+    const Vec3 middle = all.middle();
     const Vec3 centre = middle.x * axes.u + middle.y * axes.v + middle.z * axes.w;
     const auto on_grid = [](double x) { return kOriginPitch * std::round(x / kOriginPitch); };
     origin = {on_grid(centre.x), on_grid(centre.y), on_grid(centre.z)};
     const Vec3 shift{dot(axes.u, origin), dot(axes.v, origin), dot(axes.w, origin)};
-    low = all.low - shift, high = all.high - shift;
+    low = all.min - shift, high = all.max - shift;
     divide(options);
   }
 

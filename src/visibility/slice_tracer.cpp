@@ -16,12 +16,6 @@ constexpr double kBeyond = 1e-5;    // radians past an outline at which the next
 
 }  // namespace
 
-bool VisibleSlice::contains(double altitude_rad) const {
-  return std::any_of(range.begin(), range.begin() + count, [&](const AltitudeRange& r) {
-    return altitude_rad >= r.low && altitude_rad <= r.high;
-  });
-}
-
 void VisibleSlice::remove(double low, double high) {
   if (!(high > low)) return;
   VisibleSlice kept;

@@ -20,10 +20,6 @@ struct OutlineEdge {
   std::uint32_t a = MeshAdjacency::kNone, b = MeshAdjacency::kNone;
 
   friend constexpr bool operator==(OutlineEdge, OutlineEdge) = default;
-  /// Whether one outline goes on into the other: the same edge, or one that shares a vertex.
-  bool touches(OutlineEdge other) const {
-    return a == other.a || a == other.b || b == other.a || b == other.b;
-  }
 };
 
 /// Altitudes at which the sky shows in one vertical half-plane, in rising order.
@@ -33,7 +29,6 @@ struct VisibleSlice {
   std::array<AltitudeRange, kMaximum> range;
   OutlineEdge low_edge, high_edge;
 
-  bool contains(double altitude_rad) const;
   /// Takes the part between `low` and `high` away. What no longer fits is dropped.
   void remove(double low, double high);
 };

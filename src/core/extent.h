@@ -1,0 +1,25 @@
+/// Boxes about points.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "core/vec3.h"
+
+namespace tenku {
+
+/// Axis-parallel box; inside out until a point is added.
+struct Extent {
+  Vec3 min{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+           std::numeric_limits<double>::infinity()};
+  Vec3 max = -min;
+
+  void add(Vec3 p) {
+    min = {std::min(min.x, p.x), std::min(min.y, p.y), std::min(min.z, p.z)};
+    max = {std::max(max.x, p.x), std::max(max.y, p.y), std::max(max.z, p.z)};
+  }
+  Vec3 middle() const { return 0.5 * (min + max); }
+  Vec3 size() const { return max - min; }
+};
+
+}  // namespace tenku
