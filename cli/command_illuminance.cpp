@@ -8,7 +8,7 @@
 #include "cli/lit_scene_options.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
-#include "illuminance/illuminate.h"
+#include "illuminance/planned_light.h"
 #include "output/field_writer.h"
 #include "output/sensor_file.h"
 #include "output/table_writer.h"
@@ -96,8 +96,8 @@ int illuminance(const IlluminanceCommandOptions& options, const CommandContext& 
   how.tolerance_pct = options.lit.tolerance_pct;
   how.bounces = options.lit.bounces;
   how.seed = context.options.seed;
-  const IlluminanceResult result =
-      illuminate(placed.sensors, lit.rays(), lit.source(), how, context.progress);
+  const IlluminanceResult result = illuminate(placed.sensors, lit.engines(), lit.source(), how,
+                                              light_method(options.lit), context.progress);
   write_result(options, lit, placed, result);
   return close_calculation(context.options, lit,
                            {.start = start,
@@ -106,6 +106,7 @@ int illuminance(const IlluminanceCommandOptions& options, const CommandContext& 
                             .count = placed.sensors.size(),
                             .out_of_tolerance = result.out_of_tolerance,
                             .error_mean = mean_error(result.values),
+                            .regions = result.regions,
                             .findings = result.findings});
 }
 

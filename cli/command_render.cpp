@@ -76,8 +76,9 @@ int render(const RenderOptions& options, const CommandContext& context) {
   request.tolerance_pct = options.lit.tolerance_pct;
   request.bounces = options.lit.bounces;
   request.seed = context.options.seed;
+  request.method = light_method(options.lit);
   const RenderedView view =
-      render_view(request, lit.rays(), lit.source(), lit.sky().model.get(), context.progress);
+      render_view(request, lit.engines(), lit.source(), lit.sky().model.get(), context.progress);
   write_view(options.lit.out, view, kind,
              {.title = options.lit.scene.scene, .time = options.lit.site.time, .units = {}});
   return close_calculation(context.options, lit,
@@ -87,6 +88,7 @@ int render(const RenderOptions& options, const CommandContext& context) {
                             .count = view.luminance.pixels.size(),
                             .out_of_tolerance = view.out_of_tolerance,
                             .error_mean = view.error_mean,
+                            .regions = view.regions,
                             .findings = view.findings});
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -11,15 +12,42 @@
 namespace tenku {
 namespace {
 
-void check_engine(const std::string& engine) {
-  if (engine == "auto" || engine == "rays") return;
-  if (engine == "shadow-maps") {
-    throw InputError("this version has no shadow-map engine; use --engine rays");
+/// Numbers that were not estimated or measured are null.
+nlohmann::ordered_json number(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+nlohmann::ordered_json plan_json(const std::vector<PlannedRegion>& regions) {
+  nlohmann::ordered_json plan = nlohmann::ordered_json::array();
+  for (const PlannedRegion& r : regions) {
+    plan.push_back({{"engine", name_of(r.engine)},
+                    {"why", r.why},
+                    {"sensors", r.sensors},
+                    {"elements", r.elements},
+                    {"sun_directions", r.sun_directions},
+                    {"texels", r.texels},
+                    {"texel_m", r.texel_m},
+                    {"reach_m", number(r.reach_m)},
+                    {"left_out_lux", r.left_out_lux},
+                    {"rays_s", number(r.rays_s)},
+                    {"maps_s", number(r.maps_s)},
+                    {"predicted_s", number(r.predicted_s())},
+                    {"measured_s", number(r.measured_s)},
+                    {"predicted_error_lux", number(r.predicted_error_lux)},
+                    {"measured_error_lux", number(r.measured_error_lux)}});
   }
-  throw InputError("there is no engine '" + engine + "'; there are auto and rays");
+  return plan;
 }
 
 }  // namespace
+
+LightMethod light_method(const LitSceneOptions& options) {
+  LightMethod method;
+  method.engine = engine_named(options.engine);
+  method.detail = detail_named(options.lod);
+  method.mu = options.mu;
+  return method;
+}
 
 void add_lit_scene_options(CLI::App& app, LitSceneOptions& options) {
   add_scene_options(app, options.scene);
@@ -30,12 +58,18 @@ void add_lit_scene_options(CLI::App& app, LitSceneOptions& options) {
                  "error asked for, percent of each value (default 2)");
   app.add_option("--bounces", options.bounces,
                  "diffuse bounces of the reflected light, 0 for none (default 5)");
-  app.add_option("--engine", options.engine, "visibility engine: auto or rays (default auto)");
+  app.add_option("--engine", options.engine,
+                 "visibility engine: auto, rays or shadow-maps (default auto)");
+  app.add_option("--gl", options.gl, "what draws shadow maps: auto, osmesa or egl (default auto)");
+  app.add_option("--lod", options.lod,
+                 "detail: off, paper or budget, as the tolerance allows (default budget)");
+  app.add_option("--mu", options.mu,
+                 "with --lod paper, the error that a polygon may have, in pixels (default 1)");
   app.add_option("--out", options.out, "file to write; - for standard output")->required();
 }
 
 LitScene load_lit_scene(const LitSceneOptions& options, Progress& progress) {
-  check_engine(options.engine);
+  light_method(options);  // refuses names before the scene is read
   std::optional<PartitionRequest> partition;
   if (options.partition.is_given()) partition = resolve_partition(options.partition);
   ReadOptions read = read_options(options.scene);
@@ -43,7 +77,8 @@ LitScene load_lit_scene(const LitSceneOptions& options, Progress& progress) {
   const auto make_sky = [&](const std::optional<Location>& scene_site) {
     return resolve_sky(options.site, options.sky, scene_site);
   };
-  return LitScene(options.scene.scene, read, make_sky, partition, progress);
+  return LitScene(options.scene.scene, read, make_sky, partition, gl_platform_named(options.gl),
+                  progress);
 }
 
 int close_calculation(const CommonOptions& options, const LitScene& lit,
@@ -57,13 +92,14 @@ int close_calculation(const CommonOptions& options, const LitScene& lit,
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - summary.start;
     const nlohmann::ordered_json json{{"seconds", time.count()},
                                       {"rays", summary.rays},
-                                      {"depth_maps", 0},
+                                      {"depth_maps", lit.engines().maps_drawn()},
                                       {"elements", lit.source().element_count()},
                                       {summary.counted, summary.count},
                                       {"error_mean", summary.error_mean},
                                       {"out_of_tolerance", summary.out_of_tolerance},
                                       {"sky", lit.sky().description},
-                                      {"horizontal_lux", lit.source().unobstructed_lux()}};
+                                      {"horizontal_lux", lit.source().unobstructed_lux()},
+                                      {"plan", plan_json(summary.regions)}};
     fmt::print("{}\n", json.dump(2));
   }
   return summary.out_of_tolerance > 0 ? kToleranceNotReached : kDone;

@@ -12,6 +12,7 @@
 #include "cli/scene_options.h"
 #include "cli/sky_options.h"
 #include "core/progress.h"
+#include "illuminance/light_plan.h"
 #include "study/lit_scene.h"
 
 namespace tenku {
@@ -24,13 +25,17 @@ struct LitSceneOptions {
   PartitionOptions partition;
   double tolerance_pct = 2.0;
   int bounces = 5;
-  std::string engine = "auto", out;
+  std::string engine = "auto", lod = "budget", gl = "auto", out;
+  double mu = 1.0;
 };
 
 void add_lit_scene_options(CLI::App& app, LitSceneOptions& options);
 
 /// @throws InputError, ResourceError as the readers, the sky and the engine do
 LitScene load_lit_scene(const LitSceneOptions& options, Progress& progress);
+
+/// @throws InputError for names that are not known
+LightMethod light_method(const LitSceneOptions& options);
 
 /// What a calculation came to.
 struct CalculationSummary {
@@ -39,6 +44,7 @@ struct CalculationSummary {
   std::string counted;  ///< `sensors` or `pixels`
   std::size_t count = 0, out_of_tolerance = 0;
   double error_mean = 0.0;
+  std::vector<PlannedRegion> regions;
   std::vector<Finding> findings;  ///< of the calculation; the scene and the sky have their own
 };
 

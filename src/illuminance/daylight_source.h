@@ -2,10 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "illuminance/element_sky.h"
 #include "illuminance/sky_table.h"
 #include "sky_models/sky_model.h"
+#include "sky_models/sky_partition.h"
 
 namespace tenku {
 
@@ -14,6 +16,8 @@ struct DaylightSource {
   std::unique_ptr<SkyTable> sky;
   std::unique_ptr<ElementSky> elements;  ///< asked for by hand: sensors sum these, not slices
   SolarDisc sun;
+  const SkyModel* model = nullptr;            ///< of the sky, not owned; null: none
+  std::optional<PartitionRequest> partition;  ///< that `elements` were asked for by
 
   /// Illuminance of the unobstructed horizontal plane from both, lux.
   double unobstructed_lux() const;

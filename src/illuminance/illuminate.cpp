@@ -48,7 +48,7 @@ class SensorWork {
              const IlluminanceOptions& options)
       : options_(options),
         rays_(rays),
-        elements_(source.elements.get()),
+        elements_(options.by_slices ? nullptr : source.elements.get()),
         at_(at),
         sky_(rays, source.sky.get(), at.position(), at.normal(),
              SampleRandom(options.seed, at.index, 0),
@@ -156,23 +156,8 @@ class SensorWork {
   double known_direct_ = -1.0;  ///< below zero: not known
 };
 
-/// Direct light of every sensor, reflected light of some of them, spread over the others.
-IlluminanceResult illuminate_sharing(const Sensors& sensors, const RayVisibility& rays,
-                                     const DaylightSource& source,
-                                     const IlluminanceOptions& options, Progress& progress) {
-  IlluminanceOptions direct = options;
-  direct.bounces = 0;
-  IlluminanceResult result = illuminate(sensors, rays, source, direct, progress);
-  const ReflectedSharing sharing(sensors, sharing_by_distance(sensors, options.share_reflected_m));
-  IlluminanceOptions reflected = options;
-  reflected.floor_share = 0.01;  // what is shared is not exact to that in any case
-  reflected.tolerance_pct = std::min(100.0, kBlended * options.tolerance_pct);
-  reflected.most_paths = std::min(options.most_paths, kMostSharedPaths);
-  add_shared_reflection(sharing, rays, source, reflected, progress, result);
-  return result;
-}
+}  // namespace
 
-/// Sensors that nothing reaches although there is light outside.
 void find_dark_sensors(const SensorIlluminance& values, std::vector<Finding>& findings) {
   Finding dark;
   dark.code = "no_light";
@@ -186,7 +171,6 @@ void find_dark_sensors(const SensorIlluminance& values, std::vector<Finding>& fi
   if (dark.count > 0) findings.push_back(std::move(dark));
 }
 
-/// Counts the sensors out of tolerance, and says so in the findings.
 void tell_missed(IlluminanceResult& result) {
   Finding finding;
   finding.code = "tolerance_not_reached";
@@ -199,14 +183,17 @@ void tell_missed(IlluminanceResult& result) {
   if (finding.count > 0) result.findings.push_back(std::move(finding));
 }
 
-}  // namespace
-
 IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
                              const DaylightSource& source, const IlluminanceOptions& options,
                              Progress& progress) {
   check_options(options);
   if (options.share_reflected_m > 0.0 && options.bounces > 0 && !options.known_direct) {
-    return illuminate_sharing(sensors, rays, source, options, progress);
+    // Direct light of every sensor, reflected light of some of them, spread over the others.
+    IlluminanceOptions direct = options;
+    direct.bounces = 0;
+    IlluminanceResult result = illuminate(sensors, rays, source, direct, progress);
+    add_reflection(sensors, rays, source, options, progress, result);
+    return result;
   }
   const ErrorBudget budget(options.tolerance_pct, options.floor_share * source.unobstructed_lux());
   IlluminanceResult result;
@@ -255,6 +242,33 @@ void add_shared_reflection(const ReflectedSharing& sharing, const RayVisibility&
   result.rays += some.rays;
   for (std::size_t k = 0; k < few.size(); ++k) {
     result.is_missed[sharing.representatives()[k]] |= some.is_missed[k];
+  }
+  tell_missed(result);
+}
+
+void add_reflection(const Sensors& sensors, const RayVisibility& rays, const DaylightSource& source,
+                    const IlluminanceOptions& options, Progress& progress,
+                    IlluminanceResult& result) {
+  IlluminanceOptions reflected = options;
+  if (options.share_reflected_m > 0.0) {
+    reflected.floor_share = 0.01;  // what is shared is not exact to that in any case
+    reflected.tolerance_pct = std::min(100.0, kBlended * options.tolerance_pct);
+    reflected.most_paths = std::min(options.most_paths, kMostSharedPaths);
+    const ReflectedSharing sharing(sensors,
+                                   sharing_by_distance(sensors, options.share_reflected_m));
+    add_shared_reflection(sharing, rays, source, reflected, progress, result);
+    return;
+  }
+  IlluminanceOptions::KnownDirect known;
+  for (std::size_t s = 0; s < sensors.size(); ++s) known.lux.push_back(result.values.total_lux(s));
+  known.sky_view = result.values.sky_view;
+  reflected.known_direct = &known;
+  const IlluminanceResult more = illuminate(sensors, rays, source, reflected, progress);
+  result.rays += more.rays;
+  for (std::size_t s = 0; s < sensors.size(); ++s) {
+    result.values.reflected_lux[s] = more.values.reflected_lux[s];
+    result.values.error_lux[s] = std::hypot(result.values.error_lux[s], more.values.error_lux[s]);
+    result.is_missed[s] |= more.is_missed[s];
   }
   tell_missed(result);
 }

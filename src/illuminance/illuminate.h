@@ -8,6 +8,7 @@
 #include "core/progress.h"
 #include "illuminance/daylight_source.h"
 #include "illuminance/error_budget.h"
+#include "illuminance/planned_region.h"
 #include "illuminance/reflected_sharing.h"
 #include "illuminance/sensor.h"
 #include "visibility/ray_visibility.h"
@@ -31,6 +32,7 @@ struct IlluminanceOptions {
     std::vector<double> lux, sky_view;
   };
   const KnownDirect* known_direct = nullptr;
+  bool by_slices = false;  ///< even where `source.elements` is given
 };
 
 /// What came out, and what it took.
@@ -40,6 +42,8 @@ struct IlluminanceResult {
   std::vector<std::uint8_t> is_missed;  ///< [sensor], whether the limit of effort came first
   std::size_t out_of_tolerance = 0;     ///< how many of them
   std::vector<Finding> findings;
+  /// What was planned and what became of it, where the engine was for the plan to choose.
+  std::vector<PlannedRegion> regions;
 };
 
 /// Illuminance of every sensor. Rays are spent where the interval is still too wide. Where
@@ -52,11 +56,23 @@ IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
                              const DaylightSource& source, const IlluminanceOptions& options,
                              Progress& progress);
 
+/// Sensors that nothing reaches although there is light outside.
+void find_dark_sensors(const SensorIlluminance& values, std::vector<Finding>& findings);
+
+/// Counts the sensors out of tolerance, and says so in the findings.
+void tell_missed(IlluminanceResult& result);
+
 /// Adds the reflected light to a result of direct light: that of the representatives, calculated
 /// as `options` say, and of the others from them.
 /// @throws as `illuminate`
 void add_shared_reflection(const ReflectedSharing& sharing, const RayVisibility& rays,
                            const DaylightSource& source, const IlluminanceOptions& options,
                            Progress& progress, IlluminanceResult& result);
+
+/// Adds the reflected light to a result of direct light, shared where `options` say so.
+/// @throws as `illuminate`
+void add_reflection(const Sensors& sensors, const RayVisibility& rays, const DaylightSource& source,
+                    const IlluminanceOptions& options, Progress& progress,
+                    IlluminanceResult& result);
 
 }  // namespace tenku

@@ -68,9 +68,26 @@ struct SharedElements::Share {
 
 /// Of one sensor.
 struct SharedElements::Sums {
-  double lux = 0.0, view = 0.0;              ///< seen
-  double asked_lux = 0.0, asked_view = 0.0;  ///< of the elements that were asked for
-  double rest_lux = 0.0, rest_view = 0.0;    ///< of those with no direction before the plane
+  double lux = 0.0, view = 0.0;               ///< seen
+  double asked_lux = 0.0, asked_view = 0.0;   ///< of the elements that were asked for
+  double rest_lux = 0.0, rest_view = 0.0;     ///< of those with no direction before the plane
+  double open_lux = 0.0, open_view = 0.0;     ///< of those that were not wanted
+  double last_lux = 0.0, last_visible = 0.0;  ///< of the element before
+  double outline_squared = 0.0;
+
+  void add(const Share& whole, double visible) {
+    if (!(whole.view > 0.0)) {
+      last_lux = 0.0;
+    } else if (!(whole.cosines > 0.0)) {
+      rest_lux += whole.lux, rest_view += whole.view;
+    } else {
+      const double step = 0.5 * (whole.lux + last_lux) * (visible - last_visible);
+      if (last_lux > 0.0) outline_squared += step * step;
+      last_lux = whole.lux, last_visible = visible;
+      lux += whole.lux * visible, asked_lux += whole.lux;
+      view += whole.view * visible, asked_view += whole.view;
+    }
+  }
 };
 
 SharedElements::SharedElements(const SkyPartition& partition, int directions)
@@ -89,84 +106,132 @@ SharedElements::SharedElements(const SkyPartition& partition, int directions)
   }
 }
 
-std::vector<SharedElements::Share> SharedElements::shares(const Element& element,
-                                                          const std::vector<Vec3>& normals) const {
-  std::vector<Share> made(normals.size());
-  parallel_for(normals.size(), kGrain, [&](IndexRange range) {
-    for (std::size_t g = range.begin; g < range.end; ++g) {
-      const Vec3 n = normals[g];
-      const Side side = side_of(element.cell, n);
-      if (side == Side::Behind) continue;
-      Share& share = made[g];
-      for (const Vec3& d : element.directions) share.cosines += std::max(0.0, dot(n, d));
-      if (side == Side::Front) {
-        share.lux = std::max(0.0, dot(n, element.luminous));
-        share.view = std::max(0.0, dot(n, element.uniform)) / kPi;
-      } else {
-        const double front = dot(n, front_vector(element.cell, n));
-        share.lux = element.mean_luminance * front;
-        share.view = front / kPi;
-      }
-    }
-  });
-  return made;
+SharedElements::Share SharedElements::share_of(const Element& element, Vec3 n) {
+  Share share;
+  const Side side = side_of(element.cell, n);
+  if (side == Side::Behind) return share;
+  for (const Vec3& d : element.directions) share.cosines += std::max(0.0, dot(n, d));
+  if (side == Side::Front) {
+    share.lux = std::max(0.0, dot(n, element.luminous));
+    share.view = std::max(0.0, dot(n, element.uniform)) / kPi;
+  } else {
+    const double front = dot(n, front_vector(element.cell, n));
+    share.lux = element.mean_luminance * front;
+    share.view = front / kPi;
+  }
+  return share;
 }
 
-void SharedElements::add(const Element& element, const std::vector<float>* seen,
+std::vector<double> SharedElements::unobstructed_parts(Vec3 normal) const {
+  std::vector<double> lux;
+  lux.reserve(elements_.size());
+  for (const Element& element : elements_) lux.push_back(share_of(element, normal).lux);
+  return lux;
+}
+
+double SharedElements::unobstructed_lux(Vec3 normal) const {
+  const std::vector<double> parts = unobstructed_parts(normal);
+  return std::accumulate(parts.begin(), parts.end(), 0.0);
+}
+
+/// What is asked of the engine for one element.
+struct SharedElements::Asked {
+  std::vector<std::uint32_t> sensor;     ///< those that want it; unused if all do
+  std::vector<std::uint8_t> is_wanted;   ///< [sensor]; empty: all
+  std::vector<std::vector<float>> seen;  ///< [direction][sensor]
+
+  Asked(std::size_t directions, std::size_t sensors)
+      : seen(directions, std::vector<float>(sensors)) {}
+
+  void choose(const Wanted* wanted, std::size_t element) {
+    if (wanted == nullptr) return;
+    is_wanted.resize(wanted->group.size());
+    sensor.clear();
+    for (std::size_t s = 0; s < is_wanted.size(); ++s) {
+      is_wanted[s] = wanted->elements[wanted->group[s]][element] ? 1 : 0;
+      if (is_wanted[s] != 0) sensor.push_back(static_cast<std::uint32_t>(s));
+    }
+  }
+
+  void ask(const Visibility& visibility, const Sensors& sensors, Vec3 direction, std::size_t k) {
+    if (is_wanted.empty()) {
+      visibility.transmission_from(direction, sensors.position, sensors.normal, seen[k]);
+      return;
+    }
+    Sensors some;
+    for (const std::uint32_t s : sensor) {
+      some.position.push_back(sensors.position[s]);
+      some.normal.push_back(sensors.normal[s]);
+    }
+    std::vector<float> found(some.size());
+    visibility.transmission_from(direction, some.position, some.normal, found);
+    for (std::size_t i = 0; i < found.size(); ++i) seen[k][sensor[i]] = found[i];
+  }
+};
+
+void SharedElements::add(const Element& element, const Asked& asked,
                          const std::vector<std::uint32_t>& group, const std::vector<Vec3>& normals,
                          std::vector<Sums>& sums) const {
-  const std::vector<Share> share = shares(element, normals);
+  std::vector<Share> share(normals.size());
+  parallel_for(normals.size(), kGrain, [&](IndexRange range) {
+    for (std::size_t g = range.begin; g < range.end; ++g) share[g] = share_of(element, normals[g]);
+  });
   parallel_for(sums.size(), kGrain, [&](IndexRange range) {
     for (std::size_t s = range.begin; s < range.end; ++s) {
       const Share& whole = share[group[s]];
-      if (!(whole.view > 0.0)) continue;
       Sums& sum = sums[s];
-      if (!(whole.cosines > 0.0)) {
-        sum.rest_lux += whole.lux, sum.rest_view += whole.view;
-        continue;
+      if (!asked.is_wanted.empty() && asked.is_wanted[s] == 0) {
+        sum.open_lux += whole.lux, sum.open_view += whole.view;
+      } else {
+        sum.add(whole, visible_share(element, normals[group[s]], whole, asked, s));
       }
-      double visible = 0.0;
-      for (std::size_t k = 0; k < element.directions.size(); ++k) {
-        visible += std::max(0.0, dot(normals[group[s]], element.directions[k])) * seen[k][s];
-      }
-      visible /= whole.cosines;
-      sum.lux += whole.lux * visible, sum.asked_lux += whole.lux;
-      sum.view += whole.view * visible, sum.asked_view += whole.view;
     }
   });
 }
 
+double SharedElements::visible_share(const Element& element, Vec3 normal, const Share& whole,
+                                     const Asked& asked, std::size_t sensor) {
+  if (!(whole.cosines > 0.0)) return 0.0;
+  double visible = 0.0;
+  for (std::size_t k = 0; k < element.directions.size(); ++k) {
+    visible += std::max(0.0, dot(normal, element.directions[k])) * asked.seen[k][sensor];
+  }
+  return visible / whole.cosines;
+}
+
 SharedElements::Light SharedElements::light(const Visibility& visibility, const Sensors& sensors,
-                                            Progress& progress) const {
+                                            Progress& progress, const Wanted* wanted) const {
   const Normals normals(sensors.normal);
   std::vector<Sums> sums(sensors.size());
   const auto per_element = static_cast<std::size_t>(directions_);
   const std::size_t at_once = std::max<std::size_t>(1, kLooksAtOnce / per_element);
-  std::vector<std::vector<float>> seen(at_once * per_element, std::vector<float>(sensors.size()));
+  std::vector<Asked> asked(at_once, Asked(per_element, sensors.size()));
   progress.begin("sky elements", size());
   for (std::size_t first = 0; first < elements_.size(); first += at_once) {
     progress.stop_if_cancelled();
     const std::size_t count = std::min(at_once, elements_.size() - first);
+    for (std::size_t e = 0; e < count; ++e) asked[e].choose(wanted, first + e);
     parallel_for(count * per_element, 1, [&](IndexRange range) {
       for (std::size_t k = range.begin; k < range.end; ++k) {
-        const Element& element = elements_[first + k / per_element];
-        visibility.transmission_from(element.directions[k % per_element], sensors.position,
-                                     sensors.normal, seen[k]);
+        const std::size_t e = k / per_element, d = k % per_element;
+        asked[e].ask(visibility, sensors, elements_[first + e].directions[d], d);
       }
     });
     for (std::size_t e = 0; e < count; ++e) {
-      add(elements_[first + e], &seen[e * per_element], normals.of_sensor, normals.different, sums);
+      add(elements_[first + e], asked[e], normals.of_sensor, normals.different, sums);
     }
     progress.advance(count * per_element);
   }
-  Light light{std::vector<double>(sums.size()), std::vector<double>(sums.size())};
+  Light light{std::vector<double>(sums.size()), std::vector<double>(sums.size()),
+              std::vector<double>(sums.size())};
   for (std::size_t s = 0; s < sums.size(); ++s) {
     const Sums& sum = sums[s];
-    const auto with_rest = [](double got, double asked, double rest) {
-      return asked > 0.0 ? got + rest * got / asked : 0.0;
+    const auto with_rest = [](double got, double whole, double rest) {
+      return whole > 0.0 ? got + rest * got / whole : 0.0;
     };
-    light.lux[s] = with_rest(sum.lux, sum.asked_lux, sum.rest_lux);
-    light.sky_view[s] = with_rest(sum.view, sum.asked_view, sum.rest_view);
+    light.lux[s] = sum.open_lux + with_rest(sum.lux, sum.asked_lux, sum.rest_lux);
+    light.sky_view[s] = sum.open_view + with_rest(sum.view, sum.asked_view, sum.rest_view);
+    light.outline_lux[s] = std::sqrt(sum.outline_squared);
   }
   progress.end(std::to_string(size()) + " directions");
   return light;

@@ -32,19 +32,36 @@ class SharedElements {
   /// @throws InputError if `directions` is out of range
   explicit SharedElements(const SkyPartition& partition, int directions = 1);
 
-  /// What the sensors receive. Shape  both [sensor].
+  /// What the sensors receive. Shape  all [sensor].
   struct Light {
     std::vector<double> lux;
     std::vector<double> sky_view;  ///< cosine-weighted visible fraction of the whole dome
+    /// Root of the sum of squares of the light of elements that are visible where the element
+    /// before them is hidden, or the reverse, in lux: elements that follow each other touch, so an
+    /// outline runs there, and what is wrong with the sum lies along outlines.
+    std::vector<double> outline_lux;
+  };
+
+  /// Which elements are asked for, for whom. The others count as visible.
+  struct Wanted {
+    std::vector<std::uint32_t> group;         ///< [sensor]
+    std::vector<std::vector<bool>> elements;  ///< [group][element]
   };
 
   /// @param sensors  lifted off their surfaces
+  /// @param wanted   null: all for all
   /// @throws Cancelled      if the user asks to stop
   /// @throws ResourceError  as the engine
-  Light light(const Visibility& visibility, const Sensors& sensors, Progress& progress) const;
+  Light light(const Visibility& visibility, const Sensors& sensors, Progress& progress,
+              const Wanted* wanted = nullptr) const;
 
+  std::size_t count() const { return elements_.size(); }
   /// How many directions the engine is asked for.
   std::size_t size() const { return elements_.size() * static_cast<std::size_t>(directions_); }
+
+  /// What an unobstructed plane receives, lux, from each element and from all.
+  std::vector<double> unobstructed_parts(Vec3 normal) const;
+  double unobstructed_lux(Vec3 normal) const;
 
  private:
   struct Element {
@@ -55,10 +72,12 @@ class SharedElements {
   };
   struct Share;
   struct Sums;
-  std::vector<Share> shares(const Element& element, const std::vector<Vec3>& normals) const;
-  void add(const Element& element, const std::vector<float>* seen,
-           const std::vector<std::uint32_t>& group, const std::vector<Vec3>& normals,
-           std::vector<Sums>& sums) const;
+  struct Asked;
+  static Share share_of(const Element& element, Vec3 normal);
+  static double visible_share(const Element& element, Vec3 normal, const Share& whole,
+                              const Asked& asked, std::size_t sensor);
+  void add(const Element& element, const Asked& asked, const std::vector<std::uint32_t>& group,
+           const std::vector<Vec3>& normals, std::vector<Sums>& sums) const;
 
   std::vector<Element> elements_;
   int directions_;

@@ -61,12 +61,12 @@ SurfaceType broad_type(const TriangleSoup& soup, std::uint32_t triangle) {
 
 LitScene::LitScene(const std::filesystem::path& file, const ReadOptions& options,
                    const SkyMaker& make_sky, const std::optional<PartitionRequest>& partition,
-                   Progress& progress)
+                   GlPlatform gl, Progress& progress)
     : scene_(read_scene(file, options, progress)),
       soup_(std::make_unique<TriangleSoup>(flatten(scene_))) {
   progress.stop_if_cancelled();
   progress.begin("tree of boxes", 0);
-  rays_ = std::make_unique<RayVisibility>(*soup_, scene_.materials);
+  engines_ = std::make_unique<Engines>(*soup_, scene_.materials, gl);
   progress.end(std::to_string(soup_->size()) + " triangles");
   sky_ = make_sky(site());
   if (sky_.model) source_.sky = std::make_unique<SkyTable>(*sky_.model);
@@ -75,6 +75,8 @@ LitScene::LitScene(const std::filesystem::path& file, const ReadOptions& options
         std::make_unique<ElementSky>(*sky_.model, partition_sky(*sky_.model, *partition));
   }
   source_.sun = sky_.sun;
+  source_.model = sky_.model.get();
+  source_.partition = partition;
 }
 
 std::optional<Location> LitScene::site() const {

@@ -17,7 +17,7 @@
 #include "site/location.h"
 #include "sky_models/make_sky.h"
 #include "sky_models/sky_partition.h"
-#include "visibility/ray_visibility.h"
+#include "visibility/engines.h"
 
 namespace tenku {
 
@@ -30,13 +30,15 @@ class LitScene {
   using SkyMaker = std::function<Sky(const std::optional<Location>& scene_site)>;
 
   /// @param partition  the elements of the sky, where they are asked for by hand
+  /// @param gl         what draws shadow maps, if any are drawn
   /// @throws InputError, ResourceError as the readers, the partition and the ray engine do
   LitScene(const std::filesystem::path& file, const ReadOptions& options, const SkyMaker& make_sky,
-           const std::optional<PartitionRequest>& partition, Progress& progress);
+           const std::optional<PartitionRequest>& partition, GlPlatform gl, Progress& progress);
 
   const Scene& scene() const { return scene_; }
   const TriangleSoup& soup() const { return *soup_; }
-  const RayVisibility& rays() const { return *rays_; }
+  const Engines& engines() const { return *engines_; }
+  const RayVisibility& rays() const { return engines_->rays(); }
   const Sky& sky() const { return sky_; }
   const DaylightSource& source() const { return source_; }
   std::optional<Location> site() const;
@@ -55,7 +57,7 @@ class LitScene {
  private:
   Scene scene_;
   std::unique_ptr<TriangleSoup> soup_;
-  std::unique_ptr<RayVisibility> rays_;
+  std::unique_ptr<Engines> engines_;
   Sky sky_;
   DaylightSource source_;
 };

@@ -4,7 +4,7 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
-#include "illuminance/illuminate.h"
+#include "illuminance/planned_light.h"
 #include "output/field_writer.h"
 #include "output/sensor_file.h"
 #include "output/table_writer.h"
@@ -47,6 +47,14 @@ IlluminanceOptions illuminance_options_of(const StudyCalculation& calculation) {
   return options;
 }
 
+LightMethod method_of(const StudyCalculation& calculation) {
+  LightMethod method;
+  method.engine = calculation.engine;
+  method.detail = calculation.detail;
+  method.mu = calculation.mu;
+  return method;
+}
+
 ViewRequest view_request_of(const StudyView& view, const Study& study, const LitScene& lit) {
   ViewRequest request;
   request.view.width = view.size[0];
@@ -55,6 +63,7 @@ ViewRequest view_request_of(const StudyView& view, const Study& study, const Lit
   request.tolerance_pct = study.calculation.tolerance_percent;
   request.bounces = study.calculation.bounces;
   request.seed = study.calculation.seed;
+  request.method = method_of(study.calculation);
   if (view.eye && view.target) {
     request.view.eye = lit.scene().frame.to_local(*view.eye);
     request.view.target = lit.scene().frame.to_local(*view.target);
@@ -77,11 +86,11 @@ class StudyRun {
               moment_ = moment_of(study, scene_site);
               return sky_of(study, moment_);
             },
-            study.calculation.partition, progress_),
+            study.calculation.partition, study.calculation.gl, progress_),
         report_(study, lit_, moment_) {}
 
   void render(const StudyView& view) {
-    const RenderedView picture = render_view(view_request_of(view, study_, lit_), lit_.rays(),
+    const RenderedView picture = render_view(view_request_of(view, study_, lit_), lit_.engines(),
                                              lit_.source(), lit_.sky().model.get(), progress_);
     for (const std::string& format : view.formats) {
       write_view(place(view.name + "." + format), picture, view.show,
@@ -158,7 +167,8 @@ class StudyRun {
   IlluminanceResult light(const Sensors& sensors, double share_reflected_m) {
     IlluminanceOptions options = illuminance_options_of(study_.calculation);
     options.share_reflected_m = share_reflected_m;
-    IlluminanceResult result = illuminate(sensors, lit_.rays(), lit_.source(), options, progress_);
+    IlluminanceResult result = illuminate(sensors, lit_.engines(), lit_.source(), options,
+                                          method_of(study_.calculation), progress_);
     outcome_.out_of_tolerance += result.out_of_tolerance;
     report_.add_light(result);
     return result;
@@ -180,11 +190,6 @@ class StudyRun {
 
 /// Refuses before the long work what would stop it later.
 void check_study(const Study& study) {
-  if (study.calculation.engine == "shadow-maps") {
-    throw InputError(
-        "engine in [calculation] is 'shadow-maps': this version has no shadow-map "
-        "engine; use 'rays'");
-  }
   for (const StudySensors& sensors : study.sensors) read_sensor_file(sensors.file);
 }
 

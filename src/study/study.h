@@ -10,6 +10,7 @@
 
 #include "core/units.h"
 #include "core/vec3.h"
+#include "illuminance/light_plan.h"
 #include "site/location.h"
 #include "sky_models/sky_partition.h"
 
@@ -45,7 +46,10 @@ struct StudyCalculation {
   double tolerance_percent = 2.0;  ///< of each value
   int bounces = 5;
   std::uint64_t seed = 1;
-  std::string engine = "auto";
+  EngineChoice engine = EngineChoice::Auto;
+  Detail detail = Detail::Budget;
+  double mu = 1.0;  ///< of `Detail::Paper`
+  GlPlatform gl = GlPlatform::Auto;
   std::optional<PartitionRequest> partition;  ///< sky elements by hand; else slices
 };
 

@@ -1,11 +1,13 @@
 #include "study/study_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "core/parallel.h"
 #include "core/version.h"
@@ -81,6 +83,7 @@ std::string ReportBuilder::time_in_words() const {
 
 void ReportBuilder::add_view(const RenderedView& view, const StudyView& request) {
   rays_ += view.rays;
+  regions_.insert(regions_.end(), view.regions.begin(), view.regions.end());
   notes_.insert(notes_.end(), view.findings.begin(), view.findings.end());
   if (content_.view) return;  // the first one stands at the head of the report
   const Image8 picture = picture_of(view, request.show);
@@ -91,9 +94,16 @@ void ReportBuilder::add_view(const RenderedView& view, const StudyView& request)
 
 void ReportBuilder::add_light(const IlluminanceResult& result) {
   rays_ += result.rays;
+  regions_.insert(regions_.end(), result.regions.begin(), result.regions.end());
   sensors_ += result.values.size();
   out_of_tolerance_ += result.out_of_tolerance;
   notes_.insert(notes_.end(), result.findings.begin(), result.findings.end());
+}
+
+std::string ReportBuilder::engines_in_words() const {
+  std::set<std::string_view> names;
+  for (const PlannedRegion& region : regions_) names.insert(name_of(region.engine));
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 void ReportBuilder::note(const std::string& what) {
@@ -249,6 +259,7 @@ ReportContent ReportBuilder::content() const {
                       {"tolerance", fmt::format("{} %", study_.calculation.tolerance_percent)},
                       {"bounces", std::to_string(study_.calculation.bounces)},
                       {"seed", std::to_string(study_.calculation.seed)},
+                      {"engine", engines_in_words()},
                       {"rays", std::to_string(rays_)}};
   content.versions = {{"software", std::string(software_name())}};
   return content;
@@ -267,7 +278,7 @@ Manifest ReportBuilder::manifest(const std::vector<std::filesystem::path>& files
                        {"sky", study_.sky.model},
                        {"tolerance_pct", study_.calculation.tolerance_percent},
                        {"bounces", std::int64_t{study_.calculation.bounces}},
-                       {"engine", std::string("rays")},
+                       {"engine", engines_in_words()},
                        {"partition", elements ? elements->description() : "slices"},
                        {"seed", seed},
                        {"ground", study_.scene.ground},
@@ -277,6 +288,7 @@ Manifest ReportBuilder::manifest(const std::vector<std::filesystem::path>& files
   manifest.versions = output_library_versions();
   manifest.results = {{"sensors", static_cast<std::int64_t>(sensors_)},
                       {"rays", static_cast<std::int64_t>(rays_)},
+                      {"depth_maps", static_cast<std::int64_t>(lit_.engines().maps_drawn())},
                       {"elements", static_cast<std::int64_t>(lit_.source().element_count())},
                       {"out_of_tolerance", static_cast<std::int64_t>(out_of_tolerance_)},
                       {"horizontal_lux", lit_.source().unobstructed_lux()},

@@ -50,6 +50,7 @@ class ReportBuilder {
   std::string time_in_words() const;
   std::string sky_in_words() const;
   std::vector<ReportFigure> figures() const;
+  std::string engines_in_words() const;
 
   const Study& study_;
   const LitScene& lit_;
@@ -61,6 +62,7 @@ class ReportBuilder {
   std::uint64_t rays_ = 0;
   std::size_t sensors_ = 0, out_of_tolerance_ = 0;
   std::vector<Finding> notes_;
+  std::vector<PlannedRegion> regions_;
 };
 
 }  // namespace tenku

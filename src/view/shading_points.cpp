@@ -18,7 +18,7 @@ constexpr std::array<std::array<double, 2>, kRaysPerPixel> kPlace{
 
 struct Point {
   Vec3 position, normal;
-  std::uint32_t material;
+  std::uint32_t material, triangle;
   std::uint64_t surface;
   Rgb weight;
   int rays;
@@ -59,8 +59,8 @@ class PixelTracer {
       const Vec3 normal = dot(face, direction) < 0.0 ? face : -face;
       const std::uint32_t index = rays_.soup().material[hit->triangle];
       const Vec3 position = rays_.on_plane(hit->triangle, origin + hit->distance_m * direction);
-      add({position, normal, index, surface_key(rays_, hit->triangle, normal), weight, 1,
-           mirrors == 0},
+      add({position, normal, index, hit->triangle, surface_key(rays_, hit->triangle, normal),
+           weight, 1, mirrors == 0},
           pixel);
       const double mirror = rays_.materials()[index].mirror;
       if (!(mirror > 0.0) || mirrors == kMostMirrors) return;
@@ -98,6 +98,7 @@ void append(const PixelPoints& pixel, std::uint32_t index, ShadingPoints& points
     points.sensors.normal.push_back(point.normal);
     points.pixel_index.push_back(index);
     points.material.push_back(point.material);
+    points.triangle.push_back(point.triangle);
     points.surface.push_back(point.surface);
     points.weight.push_back(point.weight);
     points.coverage.push_back(static_cast<double>(point.rays) / kRaysPerPixel);

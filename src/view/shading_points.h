@@ -19,7 +19,7 @@ namespace tenku {
 /// Shape    arrays [point], but `background` [pixel] and `first` [pixel + 1].
 struct ShadingPoints {
   Sensors sensors;
-  std::vector<std::uint32_t> pixel_index, material;
+  std::vector<std::uint32_t> pixel_index, material, triangle;
   std::vector<std::uint64_t> surface;  ///< equal on one plane of one object
   std::vector<Rgb> weight;             ///< of the point's light in its pixel
   std::vector<double> coverage;        ///< share of the pixel's rays

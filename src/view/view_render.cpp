@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <unordered_map>
 
 #include "core/parallel.h"
 #include "view/shading_points.h"
@@ -54,6 +55,32 @@ IlluminanceOptions options_of(const ViewRequest& request) {
   options.first_slices = 8;    // averaged with the pixels around
   options.seed = request.seed;
   return options;
+}
+
+/// The triangles that the points lie on, and how large they would be in the picture.
+SeenPolygons seen_polygons(const ShadingPoints& points, const PerspectiveCamera& camera,
+                           const RayVisibility& rays) {
+  SeenPolygons seen;
+  std::unordered_map<std::uint64_t, std::uint32_t> place;
+  const TriangleSoup& soup = rays.soup();
+  const double pixel = camera.footprint_m(1.0);
+  for (std::size_t i = 0; i < points.sensors.size(); ++i) {
+    const Vec3 normal = points.sensors.normal[i];
+    const std::uint32_t t = points.triangle[i];
+    const bool is_front = dot(normal, rays.normal(t)) > 0.0;
+    const auto [found, is_new] = place.emplace(2 * std::uint64_t{t} + (is_front ? 1 : 0),
+                                               static_cast<std::uint32_t>(seen.normal.size()));
+    seen.of_sensor.push_back(found->second);
+    if (!is_new) continue;
+    const auto& [a, b, c] = soup.triangles[t];
+    const Vec3 pa = soup.vertices[a], pb = soup.vertices[b], pc = soup.vertices[c];
+    const Vec3 to_eye = camera.eye() - (1.0 / 3.0) * (pa + pb + pc);
+    const double area = 0.5 * length(cross(pb - pa, pc - pa)), away = length(to_eye);
+    seen.normal.push_back(normal);
+    seen.pixels.push_back(area * std::abs(dot(normal, to_eye)) / (away * away * away) /
+                          (pixel * pixel));
+  }
+  return seen;
 }
 
 /// The sky, and beyond the edge of the scene an open ground of the usual reflectance.
@@ -110,12 +137,21 @@ void compose(const ShadingPoints& points, const SensorIlluminance& light,
 
 }  // namespace
 
-RenderedView render_view(const ViewRequest& request, const RayVisibility& rays,
+RenderedView render_view(const ViewRequest& request, const Engines& engines,
                          const DaylightSource& source, const SkyModel* sky, Progress& progress) {
+  const RayVisibility& rays = engines.rays();
   const PerspectiveCamera camera(request.view);
   const ShadingPoints points =
       find_shading_points(camera, rays, backdrop_of(source, sky), progress);
-  IlluminanceResult light = illuminate(points.sensors, rays, source, options_of(request), progress);
+  LightMethod method = request.method;
+  method.eye = camera.eye();
+  SeenPolygons polygons;
+  if (method.detail == Detail::Paper) {
+    polygons = seen_polygons(points, camera, rays);
+    method.polygons = &polygons;
+  }
+  IlluminanceResult light =
+      illuminate(points.sensors, engines, source, options_of(request), method, progress);
   smooth_sky(points, light.values);
   if (request.bounces > 0 && points.sensors.size() > 0) {
     IlluminanceOptions options = options_of(request);
@@ -127,6 +163,7 @@ RenderedView render_view(const ViewRequest& request, const RayVisibility& rays,
   RenderedView result;
   result.luminance = Image(camera.width(), camera.height());
   result.rays = points.rays + light.rays;
+  result.regions = light.regions;
   tell_missed(points, light.is_missed, result);
   compose(points, light.values, rays.materials(), result);
   return result;

@@ -6,7 +6,7 @@
 
 #include "core/finding.h"
 #include "core/progress.h"
-#include "illuminance/illuminate.h"
+#include "illuminance/planned_light.h"
 #include "sky_models/sky_model.h"
 #include "view/camera.h"
 #include "view/image.h"
@@ -18,6 +18,7 @@ struct ViewRequest {
   double tolerance_pct = 2.0;  ///< of the light on what is seen; see `RenderedView`
   int bounces = 5;
   std::uint64_t seed = 1;
+  LightMethod method;  ///< its eye and polygons are those of the view
 };
 
 /// What the camera sees.
@@ -37,11 +38,12 @@ struct RenderedView {
   std::size_t out_of_tolerance = 0;  ///< pixels for which the limit of effort came first
   std::vector<Finding> findings;
   double error_mean = 0.0;  ///< mean of error_lux over the pixels that have one
+  std::vector<PlannedRegion> regions;
 };
 
 /// @param sky  for what is seen behind the scene; null: black
 /// @throws InputError, Cancelled as `illuminate` and `PerspectiveCamera` do
-RenderedView render_view(const ViewRequest& request, const RayVisibility& rays,
+RenderedView render_view(const ViewRequest& request, const Engines& engines,
                          const DaylightSource& source, const SkyModel* sky, Progress& progress);
 
 }  // namespace tenku

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/extent.h"
-
 namespace tenku {
 namespace {
 
@@ -29,7 +27,7 @@ std::uint64_t curve_place(Vec3 p, const Extent& bounds) {
          step(p.z, bounds.min.z, bounds.max.z) << 2U;
 }
 
-double reach(Vec3 axis, Vec3 half) {
+double half_extent(Vec3 axis, Vec3 half) {
   return std::abs(axis.x) * half.x + std::abs(axis.y) * half.y + std::abs(axis.z) * half.z;
 }
 
@@ -114,18 +112,24 @@ Cover CasterSet::cover(std::uint32_t triangle, Vec3 point, const LightAxes& axes
   return Cover::Unknown;
 }
 
-CasterSet::Selection CasterSet::before(const LightBox& box) const {
+CasterSet::Selection CasterSet::before(const LightBox& box, const Extent& reach) const {
   Selection found{{}, box.high.z};
+  const auto is_within = [&](const Chunk& chunk) {
+    const Vec3 from = chunk.centre - chunk.half, to = chunk.centre + chunk.half;
+    return to.x >= reach.min.x && to.y >= reach.min.y && to.z >= reach.min.z &&
+           from.x <= reach.max.x && from.y <= reach.max.y && from.z <= reach.max.z;
+  };
   for (const Chunk& chunk : chunk_) {
+    if (!is_within(chunk)) continue;
     const auto overlaps = [&](Vec3 axis, double low, double high) {
-      const double at = dot(axis, chunk.centre), about = reach(axis, chunk.half);
+      const double at = dot(axis, chunk.centre), about = half_extent(axis, chunk.half);
       return at + about >= low && at - about <= high;
     };
     if (!overlaps(box.axes.u, box.low.x, box.high.x) ||
         !overlaps(box.axes.v, box.low.y, box.high.y)) {
       continue;
     }
-    const double top = dot(box.axes.w, chunk.centre) + reach(box.axes.w, chunk.half);
+    const double top = dot(box.axes.w, chunk.centre) + half_extent(box.axes.w, chunk.half);
     if (top < box.low.z) continue;
     found.nearest = std::max(found.nearest, top);
     auto& ranges = found.casters;

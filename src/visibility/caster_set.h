@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/extent.h"
 #include "scene/material.h"
 #include "scene/triangle_soup.h"
 #include "visibility/caster_map.h"
@@ -55,12 +56,12 @@ class CasterSet {
   std::vector<CasterVertex> vertices(Vec3 origin) const;
 
   /// The casters whose chunk overlaps the box sideways and reaches its far end at least. A chunk
-  /// nearer to the light than the box counts.
+  /// nearer to the light than the box counts, but not one outside of `reach`.
   struct Selection {
     std::vector<CasterRange> casters;
     double nearest = 0.0;  ///< greatest coordinate along w of any of them
   };
-  Selection before(const LightBox& box) const;
+  Selection before(const LightBox& box, const Extent& reach) const;
 
   /// Goes over the mesh from a triangle to the one that the line from `point` to the light meets.
   /// @param tolerance_m  as in `is_behind`

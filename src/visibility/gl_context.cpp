@@ -246,6 +246,14 @@ std::mutex& opening() {
 
 }  // namespace
 
+GlPlatform gl_platform_named(std::string_view name) {
+  if (name == "auto") return GlPlatform::Auto;
+  if (name == "osmesa") return GlPlatform::OsMesa;
+  if (name == "egl") return GlPlatform::Egl;
+  throw InputError("there is no OpenGL platform '" + std::string(name) +
+                   "'; there are auto, osmesa and egl");
+}
+
 GlContext::GlContext(GlPlatform platform, const GlLibraries& libraries) {
   const std::lock_guard<std::mutex> lock(opening());
   backend_ = open_backend(platform, libraries);

@@ -3,12 +3,16 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tenku {
 
 /// Who draws: `--gl auto|osmesa|egl`.
 enum class GlPlatform { Auto, OsMesa, Egl };
+
+/// @throws InputError for a name that is not `auto`, `osmesa` or `egl`
+GlPlatform gl_platform_named(std::string_view name);
 
 /// Names under which the libraries are looked for at run time, the first one found wins.
 struct GlLibraries {

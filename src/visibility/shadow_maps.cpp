@@ -41,6 +41,7 @@ struct MapPlan {
 
   MapPlan(Vec3 direction, std::span<const Vec3> points, const ShadowMapOptions& options)
       : axes(direction) {
+    Extent all;
     std::vector<Extent> parts(  // along the axes of the light
         (points.size() + kGrain - 1) / kGrain);
     parallel_for(parts.size(), 1, [&](IndexRange range) {
@@ -53,7 +54,6 @@ struct MapPlan {
         parts[k] = part;
       }
     });
-    Extent all;
     for (const Extent& part : parts) all.add(part.min), all.add(part.max);
     const Vec3 middle = all.middle();
     const Vec3 centre = middle.x * axes.u + middle.y * axes.v + middle.z * axes.w;
@@ -231,10 +231,32 @@ TriangleSoup panes_of(const TriangleSoup& soup, const std::vector<Material>& mat
   return panes;
 }
 
+void check_texels(int texels) {
+  constexpr int kLeast = 8, kMost = 16384;
+  if (!(texels >= kLeast && texels <= kMost)) {
+    throw InputError("a shadow map has 8 to 16384 texels on a side, not " + std::to_string(texels));
+  }
+}
+
+/// The box about the points and `reach_m` more on every side.
+Extent reach_of(std::span<const Vec3> points, double reach_m) {
+  Extent box;
+  if (std::isinf(reach_m)) {
+    constexpr double kAll = std::numeric_limits<double>::infinity();
+    box.min = {-kAll, -kAll, -kAll}, box.max = {kAll, kAll, kAll};
+    return box;
+  }
+  for (const Vec3& p : points) box.add(p);
+  box.min = box.min - Vec3{reach_m, reach_m, reach_m};
+  box.max = box.max + Vec3{reach_m, reach_m, reach_m};
+  return box;
+}
+
 }  // namespace
 
 struct ShadowMaps::State {
-  ShadowMapOptions options;
+  GlPlatform platform;
+  GlLibraries libraries;
   CasterSet casters;
   TriangleSoup pane_soup;
   std::unique_ptr<RayVisibility> panes;  ///< null without glass
@@ -244,10 +266,10 @@ struct ShadowMaps::State {
 
   State(const TriangleSoup& soup, const std::vector<Material>& materials,
         const ShadowMapOptions& how)
-      : options(how), casters(soup, materials), pane_soup(panes_of(soup, materials)) {
+      : libraries(how.libraries), casters(soup, materials), pane_soup(panes_of(soup, materials)) {
     if (pane_soup.size() > 0) panes = std::make_unique<RayVisibility>(pane_soup, materials);
     idle.push_back(std::make_unique<Drawer>(how.platform, how.libraries));
-    options.platform = idle.front()->map.context().platform();
+    platform = idle.front()->map.context().platform();
   }
 
   /// A context that no other call uses, if possible with the casters about the same origin.
@@ -263,13 +285,13 @@ struct ShadowMaps::State {
         return taken;
       }
     }
-    return std::make_unique<Drawer>(options.platform, options.libraries);
+    return std::make_unique<Drawer>(platform, libraries);
   }
 
   /// Draws and hands the context back before anything runs in parallel: a thread that waits for a
   /// loop may take up another direction, which needs a context of its own.
-  std::vector<std::uint32_t> draw(const MapPlan& plan) {
-    const CasterSet::Selection found = casters.before(plan.box());
+  std::vector<std::uint32_t> draw(const MapPlan& plan, const Extent& reach) {
+    const CasterSet::Selection found = casters.before(plan.box(), reach);
     std::vector<std::uint32_t> id;
     if (found.casters.empty()) {
       id.assign(static_cast<std::size_t>(plan.width) * plan.height, CasterMap::kNothing);
@@ -286,14 +308,24 @@ struct ShadowMaps::State {
 };
 
 ShadowMaps::ShadowMaps(const TriangleSoup& soup, const std::vector<Material>& materials,
-                       const ShadowMapOptions& options) {
-  constexpr int kLeast = 8, kMost = 16384;
-  if (!(options.texels >= kLeast && options.texels <= kMost)) {
-    throw InputError("a shadow map has 8 to 16384 texels on a side, not " +
-                     std::to_string(options.texels));
-  }
-  state_ = std::make_unique<State>(soup, materials, options);
+                       const ShadowMapOptions& options)
+    : options_(options) {
+  check_texels(options.texels);
+  state_ = std::make_shared<State>(soup, materials, options);
   description_ = state_->idle.front()->map.context().description();
+}
+
+ShadowMaps::ShadowMaps(std::shared_ptr<State> state, const ShadowMapOptions& options,
+                       double reach_m)
+    : state_(std::move(state)), options_(options), reach_m_(reach_m) {}
+
+ShadowMaps ShadowMaps::with(int texels, double reach_m) const {
+  check_texels(texels);
+  ShadowMapOptions options = options_;
+  options.texels = texels;
+  ShadowMaps made(state_, options, reach_m);
+  made.description_ = description_;
+  return made;
 }
 
 ShadowMaps::~ShadowMaps() = default;
@@ -303,8 +335,8 @@ void ShadowMaps::transmission_from(Vec3 direction, std::span<const Vec3> point,
   expects(point.size() == result.size() && (normal.empty() || normal.size() == point.size()),
           "a point has a normal and a result");
   if (point.empty()) return;
-  const MapPlan plan(direction, point, state_->options);
-  const std::vector<std::uint32_t> id = state_->draw(plan);
+  const MapPlan plan(direction, point, options_);
+  const std::vector<std::uint32_t> id = state_->draw(plan, reach_of(point, reach_m_));
   const DrawnMap map(plan, state_->casters, id);
   parallel_for(point.size(), kGrain, [&](IndexRange range) {
     for (std::size_t k = range.begin; k < range.end; ++k) {
@@ -341,8 +373,18 @@ void ShadowMaps::transmission(std::span<const Vec3> origin, std::span<const Vec3
 }
 
 ShadowMaps::Texel ShadowMaps::texel(Vec3 direction, std::span<const Vec3> point) const {
-  const MapPlan plan(direction, point, state_->options);
+  const MapPlan plan(direction, point, options_);
   return {plan.texel_u, plan.texel_v};
+}
+
+std::size_t ShadowMaps::triangles_drawn(Vec3 direction, std::span<const Vec3> point) const {
+  const MapPlan plan(direction, point, options_);
+  std::size_t count = 0;
+  for (const CasterRange& range :
+       state_->casters.before(plan.box(), reach_of(point, reach_m_)).casters) {
+    count += range.count;
+  }
+  return count;
 }
 
 std::uint64_t ShadowMaps::maps_drawn() const { return state_->drawn; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -77,15 +78,27 @@ class ShadowMaps : public Visibility {
   };
   Texel texel(Vec3 direction, std::span<const Vec3> point) const;
 
-  /// How many maps have been drawn so far.
+  /// The same casters and contexts with maps of another size. Shares what it draws with.
+  /// @param reach_m  casters farther than this from the box about the points are left out
+  /// @throws InputError as the constructor
+  ShadowMaps with(int texels, double reach_m = std::numeric_limits<double>::infinity()) const;
+
+  /// How many triangles a map for these points and this direction draws.
+  std::size_t triangles_drawn(Vec3 direction, std::span<const Vec3> point) const;
+
+  /// How many maps have been drawn so far, by this object and those that share with it.
   std::uint64_t maps_drawn() const;
   /// OpenGL as the driver names it.
   const std::string& description() const { return description_; }
 
  private:
   struct State;
+  ShadowMaps(std::shared_ptr<State> state, const ShadowMapOptions& options, double reach_m);
+
   std::string description_;
-  std::unique_ptr<State> state_;
+  std::shared_ptr<State> state_;
+  ShadowMapOptions options_;
+  double reach_m_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace tenku

@@ -1,0 +1,502 @@
+#include "illuminance/light_plan.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "core/error.h"
+#include "core/extent.h"
+#include "core/parallel.h"
+#include "core/random.h"
+#include "core/suggest.h"
+#include "illuminance/error_budget.h"
+#include "illuminance/shared_elements.h"
+
+namespace tenku {
+namespace {
+
+constexpr std::size_t kPilots = 200;  // a region
+constexpr double kConfidence = 0.95;
+constexpr double kFinerPilots = 4.0;       // times the tolerance of what they are to judge
+constexpr double kFinestPilots = 0.1;      // percent
+constexpr std::size_t kFewSensors = 5000;  // are lit before a plan is made
+constexpr double kSoon_s = 2.0;            // not worth a plan
+
+// Maps.
+constexpr double kTexelPerPercent_m = 0.25;  // of tolerance
+constexpr double kFinestTexel_m = 0.1, kCoarsestTexel_m = 3.0;
+constexpr int kLeastTexels = 128, kMostTexels = 2048, kUsualTexels = 1024;
+constexpr std::size_t kMostRegions = 64;
+constexpr double kLeastMap_s = 0.0005, kLeastLook_s = 1.5e-8;  // no machine is faster
+constexpr std::size_t kTrials = 8;                             // elements drawn to learn the time
+
+// Elements.
+constexpr std::size_t kFewestElements = 24, kMostElements = 4096;
+constexpr double kMoreElements = 1.4142135623730951;
+constexpr double kPartOfReach = 0.1;  // of the tolerance, for casters that are left out
+constexpr double kLeastScale = 5e-4;  // of the unobstructed light: what no outline tells
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::vector<std::uint32_t> all_of(std::size_t count) {
+  std::vector<std::uint32_t> all(count);
+  std::iota(all.begin(), all.end(), 0U);
+  return all;
+}
+
+Extent box_of(const Sensors& sensors, const std::vector<std::uint32_t>& chosen) {
+  Extent box;
+  for (const std::uint32_t s : chosen) box.add(sensors.position[s]);
+  return box;
+}
+
+double longest(const Extent& box) {
+  const Vec3 size = box.size();
+  return std::max({size.x, size.y, size.z});
+}
+
+double texel_of(double tolerance_pct) {
+  return std::clamp(kTexelPerPercent_m * tolerance_pct, kFinestTexel_m, kCoarsestTexel_m);
+}
+
+using Parts = std::vector<std::vector<std::uint32_t>>;
+
+/// Halves the longest part across its longer side until all parts fit under a map.
+Parts split_by_extent(const Sensors& sensors, double most_m) {
+  Parts parts{all_of(sensors.size())};
+  while (parts.size() < kMostRegions) {
+    const auto widest =
+        std::max_element(parts.begin(), parts.end(), [&](const auto& a, const auto& b) {
+          return longest(box_of(sensors, a)) < longest(box_of(sensors, b));
+        });
+    const Extent box = box_of(sensors, *widest);
+    if (!(longest(box) > most_m)) break;
+    const bool by_x = box.size().x >= box.size().y;
+    const auto place = [&](std::uint32_t s) {
+      return by_x ? sensors.position[s].x : sensors.position[s].y;
+    };
+    const double middle = by_x ? box.middle().x : box.middle().y;
+    const auto cut = std::stable_partition(widest->begin(), widest->end(),
+                                           [&](std::uint32_t s) { return place(s) < middle; });
+    if (cut == widest->begin() || cut == widest->end()) break;  // one above the other
+    std::vector<std::uint32_t> rest(cut, widest->end());
+    widest->erase(cut, widest->end());
+    parts.push_back(std::move(rest));
+  }
+  return parts;
+}
+
+/// A near and a far half, as seen from the eye.
+Parts split_by_distance(const Sensors& sensors, Vec3 eye) {
+  std::vector<std::uint32_t> order = all_of(sensors.size());
+  const auto away = [&](std::uint32_t s) { return length(sensors.position[s] - eye); };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return away(a) < away(b); });
+  const auto half = order.begin() + static_cast<std::ptrdiff_t>(order.size() / 2);
+  Parts parts{{order.begin(), half}, {half, order.end()}};
+  for (auto& part : parts) std::sort(part.begin(), part.end());
+  std::erase_if(parts, [](const auto& part) { return part.empty(); });
+  return parts;
+}
+
+std::size_t directions_on_sun(const DaylightSource& source, double tolerance_pct) {
+  if (!(source.sun.normal_illuminance.value() > 0.0)) return 0;
+  // 0.4 / n^0.75 of the sun is uncertain in a penumbra (shared_sun_lux); half of the tolerance.
+  const double n = std::pow(0.8 / (tolerance_pct / 100.0), 4.0 / 3.0);
+  return static_cast<std::size_t>(std::clamp(std::ceil(n), 4.0, 32.0));
+}
+
+/// What a region needs to know of the light.
+class RegionPlanner {
+ public:
+  RegionPlanner(const Sensors& sensors, const Engines& engines, const DaylightSource& source,
+                const IlluminanceOptions& options, const LightMethod& method)
+      : sensors_(sensors), engines_(engines), source_(source), options_(options), method_(method) {}
+
+  void plan(RegionWork& work) const {
+    PlannedRegion& told = work.told;
+    told.sensors = work.sensor.size();
+    const Sensors here = sensors_of(sensors_, work.sensor);
+    choose_pilots(work);
+    if (method_.detail != Detail::Budget) return plan_shared(work, here);
+    const Sensors pilots = sensors_of(here, work.pilots.sensor);
+    const bool may_choose = method_.engine == EngineChoice::Auto;
+    if (may_choose || method_.is_predicted) time_rays(pilots, told);
+    if (method_.engine == EngineChoice::Rays) return take_rays(told, "asked for");
+    if (may_choose && !method_.is_predicted && told.rays_s < kSoon_s) {
+      return take_rays(told, "done soon");
+    }
+    RegionWork by_maps = work;
+    plan_maps(by_maps, here);
+    if (may_choose && told.rays_s < least_time(by_maps.told)) {
+      return take_rays(told, "no maps are that fast");
+    }
+    if (may_choose || method_.is_predicted)
+      by_maps.told.maps_s = time_of(Engine::ShadowMaps, here, by_maps.told);
+    if (may_choose && told.rays_s < by_maps.told.maps_s) {
+      told.maps_s = by_maps.told.maps_s;
+      return take_rays(told, "sooner done");
+    }
+    work = by_maps;
+    work.told.engine = Engine::ShadowMaps;
+    work.told.why = may_choose ? "sooner done" : "asked for";
+  }
+
+ private:
+  static double maps_of(const PlannedRegion& told) {
+    return static_cast<double>(told.elements + told.sun_directions);
+  }
+  static double least_time(const PlannedRegion& told) {
+    return maps_of(told) * (kLeastMap_s + kLeastLook_s * static_cast<double>(told.sensors));
+  }
+
+  void take_rays(PlannedRegion& told, const char* why) const {
+    told.engine = Engine::Rays;
+    told.why = why;
+    told.elements = source_.element_count();
+  }
+
+  void plan_maps(RegionWork& work, const Sensors& here) const {
+    const Sensors pilots = sensors_of(here, work.pilots.sensor);
+    judge_pilots(work, pilots);
+    choose_maps(work, here);
+    choose_elements(work, pilots);
+  }
+
+  /// All elements for all sensors, whoever is asked.
+  void plan_shared(RegionWork& work, const Sensors& here) const {
+    plan_maps(work, here);
+    PlannedRegion& told = work.told;
+    const bool may_choose = method_.engine == EngineChoice::Auto;
+    if (may_choose || method_.is_predicted) {
+      told.rays_s = time_of(Engine::Rays, here, told);
+      if (method_.engine != EngineChoice::Rays && !(may_choose && told.rays_s < least_time(told))) {
+        told.maps_s = time_of(Engine::ShadowMaps, here, told);
+      }
+    }
+    const bool by_maps =
+        method_.engine == EngineChoice::ShadowMaps || (may_choose && told.maps_s < told.rays_s);
+    told.engine = by_maps ? Engine::ShadowMaps : Engine::Rays;
+    told.why = may_choose ? "sooner done" : "asked for";
+  }
+
+  void choose_pilots(RegionWork& work) const {
+    const std::size_t count = std::min(kPilots, work.sensor.size());
+    SampleRandom random(options_.seed, work.sensor.size(), 0x70696c6f74ULL);
+    std::vector<std::uint32_t>& chosen = work.pilots.sensor;
+    // One in each of as many equal runs of sensors: all parts of the region have theirs.
+    for (std::size_t k = 0; k < count; ++k) {
+      const double at = (static_cast<double>(k) + random.uniform()) / static_cast<double>(count);
+      const auto place = static_cast<std::size_t>(at * static_cast<double>(work.sensor.size()));
+      chosen.push_back(static_cast<std::uint32_t>(std::min(place, work.sensor.size() - 1)));
+    }
+  }
+
+  IlluminanceOptions direct_options() const {
+    IlluminanceOptions direct = options_;
+    direct.bounces = 0;
+    direct.share_reflected_m = 0.0;
+    return direct;
+  }
+
+  void time_rays(const Sensors& pilots, PlannedRegion& told) const {
+    Progress quiet;
+    const auto start = Clock::now();
+    const IlluminanceResult result =
+        illuminate(pilots, engines_.rays(), source_, direct_options(), quiet);
+    told.rays_s = seconds_since(start) * static_cast<double>(told.sensors) /
+                  static_cast<double>(pilots.size());
+    told.predicted_error_lux = mean(result.values.error_lux);
+  }
+
+  void judge_pilots(RegionWork& work, const Sensors& pilots) const {
+    Progress quiet;
+    IlluminanceOptions finer = direct_options();
+    finer.by_slices = true;
+    finer.tolerance_pct = std::max(kFinestPilots, options_.tolerance_pct / kFinerPilots);
+    const IlluminanceResult truth = illuminate(pilots, engines_.rays(), source_, finer, quiet);
+    for (std::size_t k = 0; k < pilots.size(); ++k) {
+      work.pilots.lux.push_back(truth.values.total_lux(k));
+    }
+  }
+
+  void choose_maps(RegionWork& work, const Sensors& here) const {
+    PlannedRegion& told = work.told;
+    const double side = longest(box_of(here, all_of(here.size())));
+    const double texel = texel_of(options_.tolerance_pct);
+    told.texels = kUsualTexels;
+    if (method_.detail == Detail::Budget) {
+      told.texels = kLeastTexels;
+      while (told.texels < kMostTexels && told.texels * texel < side) told.texels *= 2;
+    }
+    told.texel_m = side / told.texels;
+    told.sun_directions = directions_on_sun(source_, options_.tolerance_pct);
+  }
+
+  /// As few elements as give the pilots what they are known to receive.
+  void choose_elements(RegionWork& work, const Sensors& pilots) const {
+    PlannedRegion& told = work.told;
+    if (source_.model == nullptr) return;
+    if (method_.detail != Detail::Budget && source_.partition) {
+      work.partition = *source_.partition;
+      told.elements = source_.elements->size();
+      return;
+    }
+    const std::size_t most = source_.partition ? source_.elements->size() : kMostElements;
+    const Sensors at = lifted(pilots, engines_.rays().lift_m());
+    for (double n = kFewestElements;; n *= kMoreElements) {
+      const std::size_t count = std::min(most, static_cast<std::size_t>(n));
+      work.partition = partition_of(count);
+      const SkyPartition partition = partition_sky(*source_.model, work.partition);
+      told.elements = partition.elements.size();
+      Progress quiet;
+      const SharedLight light =
+          shared_light(engines_.rays(), engines_.rays(), at, source_, partition,
+                       static_cast<int>(told.sun_directions), quiet);
+      const bool is_enough = is_good_enough(work, light);
+      if (is_enough || count == most) {
+        if (method_.detail == Detail::Budget) choose_reach(at, partition, work);
+        return;
+      }
+    }
+  }
+
+  PartitionRequest partition_of(std::size_t count) const {
+    PartitionRequest request;
+    if (source_.partition) request = *source_.partition;
+    const bool has_count =
+        request.method != PartitionMethod::Tregenza && request.method != PartitionMethod::Reinhart;
+    if (!has_count || (source_.elements && count == source_.elements->size())) return request;
+    request.energy_threshold_lux.reset();
+    request.tolerance.reset();
+    request.elements = count;
+    if (request.method == PartitionMethod::Energy) request.method = PartitionMethod::Adaptive;
+    return request;
+  }
+
+  bool is_good_enough(RegionWork& work, const SharedLight& light) const {
+    std::vector<double> value(light.sky_lux.size());
+    for (std::size_t k = 0; k < value.size(); ++k) value[k] = light.sky_lux[k] + light.sun_lux[k];
+    const double factor = work.pilots.interval_per_scale(value, light.scale_lux);
+    const ErrorBudget budget(options_.tolerance_pct,
+                             options_.floor_share * source_.unobstructed_lux());
+    std::size_t good = 0;
+    double sum = 0.0;
+    for (std::size_t k = 0; k < value.size(); ++k) {
+      const double interval = factor * light.scale_lux[k];
+      sum += interval;
+      // As the rays do: half of the tolerance (ErrorBudget).
+      good += interval <= 0.5 * budget.allowed_lux(work.pilots.lux[k]) ? 1 : 0;
+    }
+    work.told.predicted_error_lux = sum / static_cast<double>(value.size());
+    return static_cast<double>(good) >= kConfidence * static_cast<double>(value.size());
+  }
+
+  /// How far casters matter: what the elements behind farther ones would add is within a small part
+  /// of the tolerance for 95 % of the pilots.
+  void choose_reach(const Sensors& at, const SkyPartition& partition, RegionWork& work) const {
+    constexpr double kFirst_m = 50.0, kLast_m = 20000.0, kStep = 1.5;
+    std::vector<double> reach;
+    for (double r = kFirst_m; r < kLast_m; r *= kStep) reach.push_back(r);
+    std::vector<std::vector<double>> loss(at.size(), std::vector<double>(reach.size()));
+    parallel_for(at.size(), 1, [&](IndexRange range) {
+      for (std::size_t k = range.begin; k < range.end; ++k) {
+        for (const SkyElement& e : partition.elements) {
+          const double lux = dot(at.normal[k], e.illuminance_vector);
+          if (!(lux > 0.0) || !(dot(at.normal[k], e.direction) > 0.0)) continue;
+          const auto hit = engines_.rays().first_hit(at.position[k], e.direction);
+          if (!hit) continue;
+          for (std::size_t r = 0; r < reach.size() && reach[r] < hit->distance_m; ++r) {
+            loss[k][r] += lux;
+          }
+        }
+      }
+    });
+    const ErrorBudget budget(kPartOfReach * options_.tolerance_pct,
+                             options_.floor_share * source_.unobstructed_lux());
+    for (std::size_t r = 0; r < reach.size(); ++r) {
+      std::vector<double> lost, share;
+      for (std::size_t k = 0; k < at.size(); ++k) {
+        lost.push_back(loss[k][r]);
+        share.push_back(loss[k][r] / budget.allowed_lux(work.pilots.lux[k]));
+      }
+      if (quantile(share, kConfidence) > 1.0) continue;
+      work.told.reach_m = reach[r];
+      work.told.left_out_lux = quantile(lost, kConfidence);
+      return;
+    }
+  }
+
+  /// Time of all directions by one engine, from that of a few.
+  double time_of(Engine engine, const Sensors& here, const PlannedRegion& told) const {
+    if (source_.model == nullptr) return 0.0;
+    PartitionRequest request;
+    request.method = PartitionMethod::Uniform;
+    request.elements = kTrials;
+    const SharedElements trial(partition_sky(*source_.model, request));
+    const Sensors at = lifted(here, engines_.rays().lift_m());
+    Progress quiet;
+    const auto seconds = [&](const Visibility& asked) {
+      Sensors few;  // the contexts take the triangles: that is not to be timed
+      few.position.push_back(at.position.front());
+      few.normal.push_back(at.normal.front());
+      trial.light(asked, few, quiet);
+      const auto start = Clock::now();
+      trial.light(asked, at, quiet);
+      return seconds_since(start) / static_cast<double>(trial.size()) * maps_of(told);
+    };
+    if (engine == Engine::Rays) return seconds(engines_.rays());
+    return seconds(engines_.maps().with(told.texels, told.reach_m));
+  }
+
+  static double mean(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) /
+           static_cast<double>(std::max<std::size_t>(1, values.size()));
+  }
+  static double quantile(std::vector<double> values, double share) {
+    std::sort(values.begin(), values.end());
+    const auto last = static_cast<double>(values.size() - 1);
+    return values[static_cast<std::size_t>(std::ceil(share * last))];
+  }
+
+  const Sensors& sensors_;
+  const Engines& engines_;
+  const DaylightSource& source_;
+  const IlluminanceOptions& options_;
+  const LightMethod& method_;
+};
+
+Parts parts_of(const Sensors& sensors, const IlluminanceOptions& options,
+               const LightMethod& method) {
+  if (method.engine == EngineChoice::Rays) return {all_of(sensors.size())};
+  if (method.eye) return split_by_distance(sensors, *method.eye);
+  return split_by_extent(sensors, kMostTexels * texel_of(options.tolerance_pct));
+}
+
+/// The value beside a name.
+template <class Value, std::size_t count>
+Value named(std::string_view name, const std::array<std::pair<std::string_view, Value>, count>& all,
+            const char* what) {
+  std::vector<std::string_view> known;
+  for (const auto& [one, value] : all) {
+    if (one == name) return value;
+    known.push_back(one);
+  }
+  throw InputError("there is no " + std::string(what) + " '" + std::string(name) + "'" +
+                   suggestion(name, known));
+}
+
+}  // namespace
+
+EngineChoice engine_named(std::string_view name) {
+  static constexpr std::array<std::pair<std::string_view, EngineChoice>, 3> kAll{
+      {{"auto", EngineChoice::Auto},
+       {"rays", EngineChoice::Rays},
+       {"shadow-maps", EngineChoice::ShadowMaps}}};
+  return named(name, kAll, "engine");
+}
+
+Detail detail_named(std::string_view name) {
+  static constexpr std::array<std::pair<std::string_view, Detail>, 3> kAll{
+      {{"off", Detail::Off}, {"paper", Detail::Paper}, {"budget", Detail::Budget}}};
+  return named(name, kAll, "level of detail");
+}
+
+double Pilots::interval_per_scale(const std::vector<double>& value,
+                                  const std::vector<double>& scale) const {
+  std::vector<double> ratio;
+  for (std::size_t k = 0; k < value.size(); ++k) {
+    ratio.push_back(std::abs(value[k] - lux[k]) / scale[k]);
+  }
+  if (ratio.empty()) return 0.0;
+  std::sort(ratio.begin(), ratio.end());
+  const double rank = std::ceil(kConfidence * static_cast<double>(ratio.size() + 1));
+  return ratio[std::min(ratio.size(), static_cast<std::size_t>(rank)) - 1];
+}
+
+std::vector<RegionWork> plan_light(const Sensors& sensors, const Engines& engines,
+                                   const DaylightSource& source, const IlluminanceOptions& options,
+                                   const LightMethod& method, Progress& progress) {
+  std::vector<RegionWork> plan;
+  if (sensors.size() == 0) return plan;
+  const bool is_plain = method.engine == EngineChoice::Rays ||
+                        (method.engine == EngineChoice::Auto && sensors.size() < kFewSensors);
+  if (is_plain && method.detail == Detail::Budget && !method.is_predicted) {
+    RegionWork all;
+    all.sensor = all_of(sensors.size());
+    all.told.sensors = sensors.size();
+    all.told.why = method.engine == EngineChoice::Rays ? "asked for" : "few sensors";
+    plan.push_back(std::move(all));
+    return plan;
+  }
+  const RegionPlanner planner(sensors, engines, source, options, method);
+  Parts parts = parts_of(sensors, options, method);
+  progress.begin("plan", parts.size());
+  for (auto& part : parts) {
+    progress.stop_if_cancelled();
+    RegionWork work;
+    work.sensor = std::move(part);
+    planner.plan(work);
+    plan.push_back(std::move(work));
+    progress.advance(1);
+  }
+  progress.end(std::to_string(plan.size()) + (plan.size() == 1 ? " region" : " regions"));
+  return plan;
+}
+
+Sensors sensors_of(const Sensors& all, const std::vector<std::uint32_t>& chosen) {
+  Sensors some;
+  some.position.reserve(chosen.size());
+  some.normal.reserve(chosen.size());
+  for (const std::uint32_t s : chosen) {
+    some.position.push_back(all.position[s]);
+    some.normal.push_back(all.normal[s]);
+  }
+  return some;
+}
+
+Sensors lifted(Sensors sensors, double lift_m) {
+  for (std::size_t s = 0; s < sensors.size(); ++s) {
+    sensors.position[s] = sensors.position[s] + lift_m * sensors.normal[s];
+  }
+  return sensors;
+}
+
+SharedLight shared_light(const Visibility& sky_engine, const Visibility& sun_engine,
+                         const Sensors& at, const DaylightSource& source,
+                         const SkyPartition& partition, int sun_directions, Progress& progress,
+                         const SharedElements::Wanted* wanted) {
+  SharedLight result;
+  result.sun_lux.resize(at.size());
+  result.sky_lux.resize(at.size());
+  result.sky_view.resize(at.size());
+  result.scale_lux.assign(at.size(), kLeastScale * source.unobstructed_lux());
+  if (!partition.elements.empty()) {
+    auto light = SharedElements(partition).light(sky_engine, at, progress, wanted);
+    result.sky_lux = std::move(light.lux);
+    result.sky_view = std::move(light.sky_view);
+    for (std::size_t s = 0; s < at.size(); ++s) {
+      result.scale_lux[s] = std::hypot(result.scale_lux[s], light.outline_lux[s]);
+    }
+  }
+  if (sun_directions == 0) return result;
+  result.sun_lux = shared_sun_lux(sun_engine, at, source.sun, sun_directions);
+  const double uncertain = 0.4 / std::pow(sun_directions, 0.75);
+  for (std::size_t s = 0; s < at.size(); ++s) {
+    const double whole = source.sun.normal_illuminance.value() *
+                         std::max(0.0, dot(at.normal[s], source.sun.direction));
+    const bool is_partly = result.sun_lux[s] > 1e-6 * whole && result.sun_lux[s] < 0.999 * whole;
+    if (is_partly) result.scale_lux[s] = std::hypot(result.scale_lux[s], uncertain * whole);
+  }
+  return result;
+}
+
+}  // namespace tenku

@@ -1,0 +1,184 @@
+#include "illuminance/planned_light.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include "core/error.h"
+#include "illuminance/error_budget.h"
+#include "illuminance/paper_detail.h"
+
+namespace tenku {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Carries a plan out, region by region.
+class PlannedLight {
+ public:
+  PlannedLight(const Sensors& sensors, const Engines& engines, const DaylightSource& source,
+               const IlluminanceOptions& options, const LightMethod& method, Progress& progress)
+      : sensors_(sensors),
+        engines_(engines),
+        source_(source),
+        options_(options),
+        method_(method),
+        progress_(progress) {
+    result_.values = SensorIlluminance(sensors.size());
+    result_.is_missed.resize(sensors.size());
+    options_.bounces = 0;
+  }
+
+  void light(RegionWork& work) {
+    const auto start = Clock::now();
+    if (work.told.engine == Engine::Rays && method_.detail == Detail::Budget) {
+      by_rays(work);
+    } else {
+      by_shared_elements(work);
+    }
+    const std::chrono::duration<double> time = Clock::now() - start;
+    work.told.measured_s = time.count();
+    double sum = 0.0;
+    for (const std::uint32_t s : work.sensor) sum += result_.values.error_lux[s];
+    work.told.measured_error_lux = sum / static_cast<double>(work.sensor.size());
+    result_.regions.push_back(work.told);
+  }
+
+  IlluminanceResult take() {
+    tell_missed(result_);
+    if (source_.unobstructed_lux() > 0.0) find_dark_sensors(result_.values, result_.findings);
+    return std::move(result_);
+  }
+
+ private:
+  void by_rays(const RegionWork& work) {
+    const IlluminanceResult part = illuminate(sensors_of(sensors_, work.sensor), engines_.rays(),
+                                              source_, options_, progress_);
+    for (std::size_t k = 0; k < work.sensor.size(); ++k) {
+      const std::uint32_t s = work.sensor[k];
+      result_.values.sun_lux[s] = part.values.sun_lux[k];
+      result_.values.sky_lux[s] = part.values.sky_lux[k];
+      result_.values.sky_view[s] = part.values.sky_view[k];
+      result_.values.error_lux[s] = part.values.error_lux[k];
+      result_.is_missed[s] = part.is_missed[k];
+    }
+    result_.rays += part.rays;
+  }
+
+  void by_shared_elements(const RegionWork& work) {
+    const PlannedRegion& told = work.told;
+    const Sensors at = lifted(sensors_of(sensors_, work.sensor), engines_.rays().lift_m());
+    SkyPartition partition;
+    if (source_.model != nullptr) partition = partition_sky(*source_.model, work.partition);
+    const int suns = static_cast<int>(told.sun_directions);
+    SharedElements::Wanted wanted;
+    if (method_.detail == Detail::Paper) wanted = wanted_by(work, partition);
+    const SharedElements::Wanted* some = method_.detail == Detail::Paper ? &wanted : nullptr;
+    SharedLight light;
+    if (told.engine == Engine::Rays) {
+      light = shared_light(engines_.rays(), engines_.rays(), at, source_, partition, suns,
+                           progress_, some);
+      result_.rays += at.size() * (told.elements + told.sun_directions);
+    } else {
+      const ShadowMaps near = engines_.maps().with(told.texels, told.reach_m);
+      const ShadowMaps all = engines_.maps().with(told.texels);
+      light = shared_light(near, all, at, source_, partition, suns, progress_, some);
+    }
+    store(work, light);
+  }
+
+  SharedElements::Wanted wanted_by(const RegionWork& work, const SkyPartition& partition) const {
+    SeenPolygons seen;
+    seen.normal = method_.polygons->normal;
+    seen.pixels = method_.polygons->pixels;
+    for (const std::uint32_t s : work.sensor) {
+      seen.of_sensor.push_back(method_.polygons->of_sensor[s]);
+    }
+    return paper_detail(SharedElements(partition), seen, method_.mu);
+  }
+
+  void store(const RegionWork& work, const SharedLight& light) {
+    std::vector<double> value, scale;
+    for (const std::uint32_t k : work.pilots.sensor) {
+      value.push_back(light.sky_lux[k] + light.sun_lux[k]);
+      scale.push_back(light.scale_lux[k]);
+    }
+    const double factor = work.pilots.interval_per_scale(value, scale);
+    const ErrorBudget budget(options_.tolerance_pct,
+                             options_.floor_share * source_.unobstructed_lux());
+    for (std::size_t k = 0; k < work.sensor.size(); ++k) {
+      const std::uint32_t s = work.sensor[k];
+      result_.values.sun_lux[s] = light.sun_lux[k];
+      result_.values.sky_lux[s] = light.sky_lux[k];
+      result_.values.sky_view[s] = std::clamp(light.sky_view[k], 0.0, 1.0);
+      result_.values.error_lux[s] = factor * light.scale_lux[k];
+      result_.is_missed[s] =
+          result_.values.error_lux[s] > budget.allowed_lux(light.sky_lux[k] + light.sun_lux[k]);
+    }
+  }
+
+  const Sensors& sensors_;
+  const Engines& engines_;
+  const DaylightSource& source_;
+  IlluminanceOptions options_;
+  const LightMethod& method_;
+  Progress& progress_;
+  IlluminanceResult result_;
+};
+
+bool is_all_by_rays(const std::vector<RegionWork>& plan) {
+  return std::all_of(plan.begin(), plan.end(),
+                     [](const RegionWork& work) { return work.told.engine == Engine::Rays; });
+}
+
+/// Rays light all regions at once: one line for all of them.
+PlannedRegion told_together(const std::vector<RegionWork>& plan) {
+  PlannedRegion all = plan.front().told;
+  for (std::size_t r = 1; r < plan.size(); ++r) {
+    const PlannedRegion& more = plan[r].told;
+    const double sensors = static_cast<double>(all.sensors),
+                 others = static_cast<double>(more.sensors);
+    all.predicted_error_lux =
+        (sensors * all.predicted_error_lux + others * more.predicted_error_lux) /
+        (sensors + others);
+    all.sensors += more.sensors;
+    all.rays_s += more.rays_s, all.maps_s += more.maps_s;
+  }
+  return all;
+}
+
+}  // namespace
+
+IlluminanceResult illuminate(const Sensors& sensors, const Engines& engines,
+                             const DaylightSource& source, const IlluminanceOptions& options,
+                             const LightMethod& method, Progress& progress) {
+  if (method.detail == Detail::Paper && method.polygons == nullptr) {
+    throw InputError(
+        "the paper's level of detail goes by the size of polygons in a picture: sensors have none; "
+        "use --lod budget or off");
+  }
+  std::vector<RegionWork> plan = plan_light(sensors, engines, source, options, method, progress);
+  if (is_all_by_rays(plan) && method.detail == Detail::Budget) {
+    const auto start = Clock::now();
+    IlluminanceResult result = illuminate(sensors, engines.rays(), source, options, progress);
+    const std::chrono::duration<double> time = Clock::now() - start;
+    if (plan.empty()) return result;
+    result.regions = {told_together(plan)};
+    // With reflected light the two cannot be told apart.
+    if (options.bounces == 0) result.regions.front().measured_s = time.count();
+    result.regions.front().measured_error_lux =
+        std::accumulate(result.values.error_lux.begin(), result.values.error_lux.end(), 0.0) /
+        static_cast<double>(sensors.size());
+    return result;
+  }
+  PlannedLight light(sensors, engines, source, options, method, progress);
+  for (RegionWork& work : plan) light.light(work);
+  IlluminanceResult result = light.take();
+  if (options.bounces > 0) {
+    add_reflection(sensors, engines.rays(), source, options, progress, result);
+  }
+  return result;
+}
+
+}  // namespace tenku

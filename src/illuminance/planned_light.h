@@ -1,0 +1,22 @@
+/// Illuminance by the engine, and in the detail, that a plan chooses.
+#pragma once
+
+#include "illuminance/light_plan.h"
+
+namespace tenku {
+
+/// As `illuminate` with rays, but direct light is found as `method` says. What came of the plan is
+/// in `IlluminanceResult::regions`. Reflected light is always followed by rays.
+///
+/// Error    of regions lit by shadow maps `error_lux` comes from the pilots (see `Pilots`): it
+/// holds
+///          what elements, texels and left-out casters cost, whatever that is. With
+///          `Detail::Paper` likewise.
+/// Same bits for any number of threads, but with `EngineChoice::Auto` the choice itself depends on
+/// how long things take.
+/// @throws as `illuminate` and `plan_light`
+IlluminanceResult illuminate(const Sensors& sensors, const Engines& engines,
+                             const DaylightSource& source, const IlluminanceOptions& options,
+                             const LightMethod& method, Progress& progress);
+
+}  // namespace tenku
