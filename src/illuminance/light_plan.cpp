@@ -27,8 +27,8 @@ constexpr std::size_t kFewSensors = 5000;  // are lit before a plan is made
 constexpr double kSoon_s = 2.0;            // not worth a plan
 
 // Maps.
-constexpr double kTexelPerPercent_m = 0.25;  // of tolerance
-constexpr double kFinestTexel_m = 0.1, kCoarsestTexel_m = 3.0;
+constexpr double kTexelPerPercent_m = 0.35;  // of tolerance
+constexpr double kFinestTexel_m = 0.1, kCoarsestTexel_m = 8.0;
 constexpr int kLeastTexels = 128, kMostTexels = 2048, kUsualTexels = 1024;
 constexpr std::size_t kMostRegions = 64;
 constexpr double kLeastMap_s = 0.0005, kLeastLook_s = 1.5e-8;  // no machine is faster
@@ -37,8 +37,10 @@ constexpr std::size_t kTrials = 8;                             // elements drawn
 // Elements.
 constexpr std::size_t kFewestElements = 24, kMostElements = 4096;
 constexpr double kMoreElements = 1.4142135623730951;
-constexpr double kPartOfReach = 0.1;  // of the tolerance, for casters that are left out
-constexpr double kLeastScale = 5e-4;  // of the unobstructed light: what no outline tells
+constexpr double kPictureShare = 0.3;  // of the tolerance, for the mean error of a picture
+constexpr double kPartOfReach = 0.1;   // of the tolerance, for casters that are left out
+constexpr double kLeastScale = 5e-4;   // of the unobstructed light: what no outline tells
+constexpr double kUnmet = 0.5;         // of an element: what may hide part of it and no other
 
 using Clock = std::chrono::steady_clock;
 
@@ -278,7 +280,8 @@ class RegionPlanner {
     request.energy_threshold_lux.reset();
     request.tolerance.reset();
     request.elements = count;
-    if (request.method == PartitionMethod::Energy) request.method = PartitionMethod::Adaptive;
+    // What maps get wrong lies along outlines, and is least where all elements weigh the same.
+    if (request.method == PartitionMethod::Adaptive) request.method = PartitionMethod::Energy;
     return request;
   }
 
@@ -289,15 +292,21 @@ class RegionPlanner {
     const ErrorBudget budget(options_.tolerance_pct,
                              options_.floor_share * source_.unobstructed_lux());
     std::size_t good = 0;
-    double sum = 0.0;
+    double intervals = 0.0, missed = 0.0;
+    const auto count = static_cast<double>(value.size());
     for (std::size_t k = 0; k < value.size(); ++k) {
       const double interval = factor * light.scale_lux[k];
-      sum += interval;
+      intervals += interval;
+      missed += std::abs(value[k] - work.pilots.lux[k]);
       // As the rays do: half of the tolerance (ErrorBudget).
       good += interval <= 0.5 * budget.allowed_lux(work.pilots.lux[k]) ? 1 : 0;
     }
-    work.told.predicted_error_lux = sum / static_cast<double>(value.size());
-    return static_cast<double>(good) >= kConfidence * static_cast<double>(value.size());
+    work.told.predicted_error_lux = intervals / count;
+    if (method_.picture_tolerance_pct > 0.0) {
+      return missed / count <=
+             kPictureShare * method_.picture_tolerance_pct / 100.0 * source_.unobstructed_lux();
+    }
+    return static_cast<double>(good) >= kConfidence * count;
   }
 
   /// How far casters matter: what the elements behind farther ones would add is within a small part
@@ -341,7 +350,7 @@ class RegionPlanner {
     PartitionRequest request;
     request.method = PartitionMethod::Uniform;
     request.elements = kTrials;
-    const SharedElements trial(partition_sky(*source_.model, request));
+    const SharedElements trial(partition_sky(*source_.model, request), source_.sky.get());
     const Sensors at = lifted(here, engines_.rays().lift_m());
     Progress quiet;
     const auto seconds = [&](const Visibility& asked) {
@@ -480,11 +489,13 @@ SharedLight shared_light(const Visibility& sky_engine, const Visibility& sun_eng
   result.sky_view.resize(at.size());
   result.scale_lux.assign(at.size(), kLeastScale * source.unobstructed_lux());
   if (!partition.elements.empty()) {
-    auto light = SharedElements(partition).light(sky_engine, at, progress, wanted);
+    auto light =
+        SharedElements(partition, source.sky.get()).light(sky_engine, at, progress, wanted);
     result.sky_lux = std::move(light.lux);
     result.sky_view = std::move(light.sky_view);
     for (std::size_t s = 0; s < at.size(); ++s) {
-      result.scale_lux[s] = std::hypot(result.scale_lux[s], light.outline_lux[s]);
+      result.scale_lux[s] =
+          std::hypot(result.scale_lux[s], light.outline_lux[s], kUnmet * light.element_lux[s]);
     }
   }
   if (sun_directions == 0) return result;

@@ -95,7 +95,7 @@ class PlannedLight {
     for (const std::uint32_t s : work.sensor) {
       seen.of_sensor.push_back(method_.polygons->of_sensor[s]);
     }
-    return paper_detail(SharedElements(partition), seen, method_.mu);
+    return paper_detail(SharedElements(partition, source_.sky.get()), seen, method_.mu);
   }
 
   void store(const RegionWork& work, const SharedLight& light) {
@@ -105,8 +105,9 @@ class PlannedLight {
       scale.push_back(light.scale_lux[k]);
     }
     const double factor = work.pilots.interval_per_scale(value, scale);
-    const ErrorBudget budget(options_.tolerance_pct,
-                             options_.floor_share * source_.unobstructed_lux());
+    // In a picture what is dark need not be exact.
+    const double floor_share = method_.picture_tolerance_pct > 0.0 ? 1.0 : options_.floor_share;
+    const ErrorBudget budget(options_.tolerance_pct, floor_share * source_.unobstructed_lux());
     for (std::size_t k = 0; k < work.sensor.size(); ++k) {
       const std::uint32_t s = work.sensor[k];
       result_.values.sun_lux[s] = light.sun_lux[k];

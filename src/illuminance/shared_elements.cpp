@@ -11,14 +11,17 @@
 #include "core/parallel.h"
 #include "illuminance/cell_side.h"
 #include "illuminance/sensor_sun.h"
+#include "illuminance/slice_light.h"
 
 namespace tenku {
 namespace {
 
 constexpr std::size_t kGrain = 4096;            // sensors in a task
 constexpr std::size_t kLooksAtOnce = 8;         // directions whose visibility is held in memory
-constexpr int kCutParts = 24;                   // a side of an element that a sensor's plane cuts
+constexpr int kCutSlices = 12;                  // of an element that a sensor's plane cuts
 constexpr double kGolden = 0.6180339887498949;  // (sqrt(5) - 1) / 2
+
+constexpr double square(double x) { return x * x; }
 
 /// Points k of n in the unit square, evenly spread: a lattice of the golden section.
 struct Spread {
@@ -26,16 +29,27 @@ struct Spread {
   Spread(int k, int n) : u((k + 0.5) / n), v(std::fmod(0.5 + k * kGolden, 1.0)) {}
 };
 
-/// Integral of the direction over the part of a cell in front of a plane.
-Vec3 front_vector(const SkyCell& cell, Vec3 normal) {
-  Vec3 sum;
-  for (int i = 0; i < kCutParts; ++i) {
-    for (int j = 0; j < kCutParts; ++j) {
-      const Vec3 direction = cell.direction((i + 0.5) / kCutParts, (j + 0.5) / kCutParts);
-      if (dot(normal, direction) > 0.0) sum = sum + direction;
-    }
+/// What a plane receives from the part of a cell in front of it, slice by slice of azimuth.
+/// @param table  null: only the view
+LuxAndView front_part(const SkyCell& cell, Vec3 normal, const SkyTable* table) {
+  const double bottom = std::asin(cell.sine_from), top = std::asin(cell.sine_to);
+  const double width = (cell.azimuth_to - cell.azimuth_from) / kCutSlices;
+  LuxAndView sum;
+  for (int k = 0; k < kCutSlices; ++k) {
+    const double azimuth = cell.azimuth_from + (k + 0.5) * width;
+    const double along = normal.x * std::sin(azimuth) + normal.y * std::cos(azimuth);
+    const FrontRange front = front_range(along, normal.z);
+    const double low = std::max(front.low, bottom), high = std::min(front.high, top);
+    if (!(low < high)) continue;
+    const double turn = 0.5 * (std::sin(2.0 * high) - std::sin(2.0 * low));
+    const double rise = square(std::sin(high)) - square(std::sin(low));
+    sum.view += width / kPi * 0.5 * (along * (high - low + turn) + normal.z * rise);
+    if (table == nullptr) continue;
+    const SkyTable::Column column = table->column(azimuth);
+    const SliceMoments moments = column.to(high) - column.to(low);
+    sum.lux += width * (along * moments.along + normal.z * moments.up);
   }
-  return cell.solid_angle() / (kCutParts * kCutParts) * sum;
+  return sum;
 }
 
 /// Different normals among the sensors, and which of them each sensor has.
@@ -73,7 +87,8 @@ struct SharedElements::Sums {
   double rest_lux = 0.0, rest_view = 0.0;     ///< of those with no direction before the plane
   double open_lux = 0.0, open_view = 0.0;     ///< of those that were not wanted
   double last_lux = 0.0, last_visible = 0.0;  ///< of the element before
-  double outline_squared = 0.0;
+  double outline_squared = 0.0, squared = 0.0;
+  std::uint32_t elements = 0;
 
   void add(const Share& whole, double visible) {
     if (!(whole.view > 0.0)) {
@@ -84,14 +99,16 @@ struct SharedElements::Sums {
       const double step = 0.5 * (whole.lux + last_lux) * (visible - last_visible);
       if (last_lux > 0.0) outline_squared += step * step;
       last_lux = whole.lux, last_visible = visible;
+      squared += whole.lux * whole.lux;
+      ++elements;
       lux += whole.lux * visible, asked_lux += whole.lux;
       view += whole.view * visible, asked_view += whole.view;
     }
   }
 };
 
-SharedElements::SharedElements(const SkyPartition& partition, int directions)
-    : directions_(directions) {
+SharedElements::SharedElements(const SkyPartition& partition, const SkyTable* table, int directions)
+    : table_(table), directions_(directions) {
   constexpr int kMost = 1024;
   if (!(directions >= 1 && directions <= kMost)) {
     throw InputError("an element has 1 to 1024 directions, not " + std::to_string(directions));
@@ -100,13 +117,14 @@ SharedElements::SharedElements(const SkyPartition& partition, int directions)
     Element element{e.cell, e.luminance.value(), e.illuminance_vector, uniform_vector(e.cell), {}};
     for (int k = 0; k < directions; ++k) {
       const Spread at(k, directions);
-      element.directions.push_back(directions == 1 ? e.direction : e.cell.direction(at.u, at.v));
+      element.directions.push_back(directions == 1 ? normalized(e.illuminance_vector)
+                                                   : e.cell.direction(at.u, at.v));
     }
     elements_.push_back(std::move(element));
   }
 }
 
-SharedElements::Share SharedElements::share_of(const Element& element, Vec3 n) {
+SharedElements::Share SharedElements::share_of(const Element& element, Vec3 n) const {
   Share share;
   const Side side = side_of(element.cell, n);
   if (side == Side::Behind) return share;
@@ -115,9 +133,10 @@ SharedElements::Share SharedElements::share_of(const Element& element, Vec3 n) {
     share.lux = std::max(0.0, dot(n, element.luminous));
     share.view = std::max(0.0, dot(n, element.uniform)) / kPi;
   } else {
-    const double front = dot(n, front_vector(element.cell, n));
-    share.lux = element.mean_luminance * front;
-    share.view = front / kPi;
+    const LuxAndView front = front_part(element.cell, n, table_);
+    share.view = std::max(0.0, front.view);
+    share.lux =
+        table_ != nullptr ? std::max(0.0, front.lux) : element.mean_luminance * kPi * share.view;
   }
   return share;
 }
@@ -222,8 +241,8 @@ SharedElements::Light SharedElements::light(const Visibility& visibility, const 
     }
     progress.advance(count * per_element);
   }
-  Light light{std::vector<double>(sums.size()), std::vector<double>(sums.size()),
-              std::vector<double>(sums.size())};
+  const std::vector<double> none(sums.size());
+  Light light{none, none, none, none};
   for (std::size_t s = 0; s < sums.size(); ++s) {
     const Sums& sum = sums[s];
     const auto with_rest = [](double got, double whole, double rest) {
@@ -232,6 +251,7 @@ SharedElements::Light SharedElements::light(const Visibility& visibility, const 
     light.lux[s] = sum.open_lux + with_rest(sum.lux, sum.asked_lux, sum.rest_lux);
     light.sky_view[s] = sum.open_view + with_rest(sum.view, sum.asked_view, sum.rest_view);
     light.outline_lux[s] = std::sqrt(sum.outline_squared);
+    if (sum.elements > 0) light.element_lux[s] = std::sqrt(sum.squared / sum.elements);
   }
   progress.end(std::to_string(size()) + " directions");
   return light;

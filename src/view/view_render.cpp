@@ -145,6 +145,7 @@ RenderedView render_view(const ViewRequest& request, const Engines& engines,
       find_shading_points(camera, rays, backdrop_of(source, sky), progress);
   LightMethod method = request.method;
   method.eye = camera.eye();
+  method.picture_tolerance_pct = request.tolerance_pct;
   SeenPolygons polygons;
   if (method.detail == Detail::Paper) {
     polygons = seen_polygons(points, camera, rays);

@@ -39,6 +39,34 @@ LightAxes::LightAxes(Vec3 direction) : w(direction) {
   v = cross(w, u);
 }
 
+LightCells::LightCells(double low_u, double low_v, double high_u, double high_v)
+    : low_u_(low_u),
+      low_v_(low_v),
+      per_u_(kSide / (high_u - low_u)),
+      per_v_(kSide / (high_v - low_v)),
+      count_((kSide + 1) * (kSide + 1)) {}
+
+void LightCells::add(double u, double v) {
+  const int i = cell((u - low_u_) * per_u_), j = cell((v - low_v_) * per_v_);
+  ++count_[static_cast<std::size_t>((j + 1) * (kSide + 1) + i + 1)];
+}
+
+void LightCells::sum_up() {
+  constexpr std::size_t kRow = kSide + 1;
+  for (std::size_t k = kRow; k < count_.size(); ++k) {
+    if (k % kRow != 0) count_[k] += count_[k - 1] + count_[k - kRow] - count_[k - kRow - 1];
+  }
+}
+
+bool LightCells::has_points(double low_u, double low_v, double high_u, double high_v) const {
+  const int left = cell((low_u - low_u_) * per_u_), right = cell((high_u - low_u_) * per_u_) + 1;
+  const int low = cell((low_v - low_v_) * per_v_), high = cell((high_v - low_v_) * per_v_) + 1;
+  const auto sum = [&](int i, int j) {
+    return count_[static_cast<std::size_t>(j * (kSide + 1) + i)];
+  };
+  return sum(right, high) + sum(left, low) > sum(left, high) + sum(right, low);
+}
+
 CasterSet::CasterSet(const TriangleSoup& soup, const std::vector<Material>& materials)
     : soup_(soup), adjacency_(soup), plane_(soup.size()) {
   Extent all;
@@ -112,6 +140,13 @@ Cover CasterSet::cover(std::uint32_t triangle, Vec3 point, const LightAxes& axes
   return Cover::Unknown;
 }
 
+bool CasterSet::shades_points(const Chunk& chunk, const LightBox& box) {
+  const double u = dot(box.axes.u, chunk.centre), v = dot(box.axes.v, chunk.centre);
+  const double wide = half_extent(box.axes.u, chunk.half),
+               high = half_extent(box.axes.v, chunk.half);
+  return box.cells->has_points(u - wide, v - high, u + wide, v + high);
+}
+
 CasterSet::Selection CasterSet::before(const LightBox& box, const Extent& reach) const {
   Selection found{{}, box.high.z};
   const auto is_within = [&](const Chunk& chunk) {
@@ -129,6 +164,7 @@ CasterSet::Selection CasterSet::before(const LightBox& box, const Extent& reach)
         !overlaps(box.axes.v, box.low.y, box.high.y)) {
       continue;
     }
+    if (box.cells != nullptr && !shades_points(chunk, box)) continue;
     const double top = dot(box.axes.w, chunk.centre) + half_extent(box.axes.w, chunk.half);
     if (top < box.low.z) continue;
     found.nearest = std::max(found.nearest, top);

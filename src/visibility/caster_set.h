@@ -1,6 +1,7 @@
 /// The opaque triangles of a scene in an order in which neighbours in space are neighbours.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -26,10 +27,30 @@ struct LightAxes {
   explicit LightAxes(Vec3 direction);
 };
 
+/// Where points lie across the light: a grid of cells over their rectangle, with the numbers of
+/// points summed over all cells below and to the left, so that a rectangle is asked in one step.
+class LightCells {
+ public:
+  /// @param low_u, low_v, high_u, high_v  rectangle along the axes of the light, metres
+  LightCells(double low_u, double low_v, double high_u, double high_v);
+
+  void add(double u, double v);
+  void sum_up();
+  /// Whether points may lie in a rectangle.
+  bool has_points(double low_u, double low_v, double high_u, double high_v) const;
+
+ private:
+  static constexpr int kSide = 128;
+  static int cell(double at) { return static_cast<int>(std::min(std::max(at, 0.0), kSide - 1.0)); }
+  double low_u_, low_v_, per_u_, per_v_;  ///< cells per metre
+  std::vector<std::uint32_t> count_;      ///< [row + 1][column + 1], the first of each zero
+};
+
 /// A part of space seen along a direction: coordinates along u, v and w as x, y and z.
 struct LightBox {
   LightAxes axes;
   Vec3 low, high;
+  const LightCells* cells = nullptr;  ///< of the points in it, borrowed; null: anywhere
 };
 
 /// How a triangle lies to a point, seen along a direction.
@@ -80,6 +101,7 @@ class CasterSet {
     CasterRange range;
     Vec3 centre, half;
   };
+  static bool shades_points(const Chunk& chunk, const LightBox& box);
   bool is_caster(std::uint32_t triangle) const { return plane_[triangle].normal != Vec3{}; }
   Vec3 corner(std::uint32_t triangle, unsigned k) const {
     return soup_.vertices[soup_.triangles[triangle][k]];

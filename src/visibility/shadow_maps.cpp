@@ -90,6 +90,18 @@ struct MapPlan {
     return {axes, from + shift, to + shift};
   }
 
+  /// Where the points lie, each with a texel about it.
+  LightCells cells(const LightBox& box, std::span<const Vec3> points) const {
+    LightCells made(box.low.x, box.low.y, box.high.x, box.high.y);
+    for (const Vec3& p : points) {
+      const double u = dot(axes.u, p), v = dot(axes.v, p);
+      made.add(u - texel_u, v - texel_v), made.add(u + texel_u, v - texel_v);
+      made.add(u - texel_u, v + texel_v), made.add(u + texel_u, v + texel_v);
+    }
+    made.sum_up();
+    return made;
+  }
+
   /// @param nearest  coordinate along w of the caster nearest to the light, from `origin`
   MapFrame frame(double nearest) const {
     const double back = low.z - 1.0;
@@ -288,10 +300,19 @@ struct ShadowMaps::State {
     return std::make_unique<Drawer>(platform, libraries);
   }
 
+  CasterSet::Selection select(const MapPlan& plan, std::span<const Vec3> points,
+                              double reach_m) const {
+    LightBox box = plan.box();
+    const LightCells cells = plan.cells(box, points);
+    box.cells = &cells;
+    return casters.before(box, reach_of(points, reach_m));
+  }
+
   /// Draws and hands the context back before anything runs in parallel: a thread that waits for a
   /// loop may take up another direction, which needs a context of its own.
-  std::vector<std::uint32_t> draw(const MapPlan& plan, const Extent& reach) {
-    const CasterSet::Selection found = casters.before(plan.box(), reach);
+  std::vector<std::uint32_t> draw(const MapPlan& plan, std::span<const Vec3> points,
+                                  double reach_m) {
+    const CasterSet::Selection found = select(plan, points, reach_m);
     std::vector<std::uint32_t> id;
     if (found.casters.empty()) {
       id.assign(static_cast<std::size_t>(plan.width) * plan.height, CasterMap::kNothing);
@@ -336,7 +357,7 @@ void ShadowMaps::transmission_from(Vec3 direction, std::span<const Vec3> point,
           "a point has a normal and a result");
   if (point.empty()) return;
   const MapPlan plan(direction, point, options_);
-  const std::vector<std::uint32_t> id = state_->draw(plan, reach_of(point, reach_m_));
+  const std::vector<std::uint32_t> id = state_->draw(plan, point, reach_m_);
   const DrawnMap map(plan, state_->casters, id);
   parallel_for(point.size(), kGrain, [&](IndexRange range) {
     for (std::size_t k = range.begin; k < range.end; ++k) {
@@ -380,8 +401,7 @@ ShadowMaps::Texel ShadowMaps::texel(Vec3 direction, std::span<const Vec3> point)
 std::size_t ShadowMaps::triangles_drawn(Vec3 direction, std::span<const Vec3> point) const {
   const MapPlan plan(direction, point, options_);
   std::size_t count = 0;
-  for (const CasterRange& range :
-       state_->casters.before(plan.box(), reach_of(point, reach_m_)).casters) {
+  for (const CasterRange& range : state_->select(plan, point, reach_m_).casters) {
     count += range.count;
   }
   return count;

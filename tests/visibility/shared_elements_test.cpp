@@ -89,7 +89,7 @@ TEST(SharedElements, TiltedSensorsReceiveTheClosedForm) {
     }
   }
   for (const int directions : {1, 4}) {
-    const SharedElements elements(divided(*sky, "tregenza"), directions);
+    const SharedElements elements(divided(*sky, "tregenza"), nullptr, directions);
     Progress quiet;
     const auto light = elements.light(rays, sensors, quiet);
     for (std::size_t s = 0; s < share.size(); ++s) {
@@ -137,7 +137,7 @@ TEST(SharedElements, ResultsDoNotDependOnTheThreads) {
   TestScene scene = pavement();
   scene.box({-10, -5, 0}, {20, 10, 15}, 30.0);
   const auto sky = testing_support::numbered_sky(12, 40.0, 180.0);
-  const SharedElements elements(divided(*sky, "adaptive", 60), 2);
+  const SharedElements elements(divided(*sky, "adaptive", 60), nullptr, 2);
   Sensors sensors;
   for (int k = 0; k < 9000; ++k) {
     sensors.position.push_back({-45.0 + k % 90, -45.0 + k / 100.0, 1e-5});
@@ -184,7 +184,7 @@ TEST(SharedElements, SunDiscGivesThePenumbraOfAStraightEdge) {
 
 TEST(SharedElements, NoDirectionsAreRefused) {
   const auto sky = testing_support::numbered_sky(5, 40.0, 180.0);
-  EXPECT_THROW(SharedElements(divided(*sky, "tregenza"), 0), InputError);
+  EXPECT_THROW(SharedElements(divided(*sky, "tregenza"), nullptr, 0), InputError);
 }
 
 }  // namespace
