@@ -40,6 +40,7 @@ CommandBody make_sun_command(CLI::App& app);
 CommandBody make_sky_command(CLI::App& app);
 CommandBody make_inspect_command(CLI::App& app);
 CommandBody make_illuminance_command(CLI::App& app);
+CommandBody make_plan_command(CLI::App& app);
 CommandBody make_render_command(CLI::App& app);
 CommandBody make_run_command(CLI::App& app);
 

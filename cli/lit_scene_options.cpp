@@ -3,44 +3,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "cli/plan_output.h"
 #include "core/error.h"
 
 namespace tenku {
-namespace {
-
-/// Numbers that were not estimated or measured are null.
-nlohmann::ordered_json number(double value) {
-  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
-}
-
-nlohmann::ordered_json plan_json(const std::vector<PlannedRegion>& regions) {
-  nlohmann::ordered_json plan = nlohmann::ordered_json::array();
-  for (const PlannedRegion& r : regions) {
-    plan.push_back({{"engine", name_of(r.engine)},
-                    {"why", r.why},
-                    {"sensors", r.sensors},
-                    {"elements", r.elements},
-                    {"sun_directions", r.sun_directions},
-                    {"texels", r.texels},
-                    {"texel_m", r.texel_m},
-                    {"reach_m", number(r.reach_m)},
-                    {"left_out_lux", r.left_out_lux},
-                    {"rays_s", number(r.rays_s)},
-                    {"maps_s", number(r.maps_s)},
-                    {"predicted_s", number(r.predicted_s())},
-                    {"measured_s", number(r.measured_s)},
-                    {"predicted_error_lux", number(r.predicted_error_lux)},
-                    {"measured_error_lux", number(r.measured_error_lux)}});
-  }
-  return plan;
-}
-
-}  // namespace
-
 LightMethod light_method(const LitSceneOptions& options) {
   LightMethod method;
   method.engine = engine_named(options.engine);
@@ -65,6 +36,9 @@ void add_lit_scene_options(CLI::App& app, LitSceneOptions& options) {
                  "detail: off, paper or budget, as the tolerance allows (default budget)");
   app.add_option("--mu", options.mu,
                  "with --lod paper, the error that a polygon may have, in pixels (default 1)");
+}
+
+void add_out_option(CLI::App& app, LitSceneOptions& options) {
   app.add_option("--out", options.out, "file to write; - for standard output")->required();
 }
 
@@ -81,6 +55,12 @@ LitScene load_lit_scene(const LitSceneOptions& options, Progress& progress) {
                   progress);
 }
 
+bool is_worth_telling(const std::vector<PlannedRegion>& regions) {
+  return std::any_of(regions.begin(), regions.end(), [](const PlannedRegion& r) {
+    return r.engine == Engine::ShadowMaps || std::isfinite(r.predicted_s());
+  });
+}
+
 int close_calculation(const CommonOptions& options, const LitScene& lit,
                       const CalculationSummary& summary) {
   std::vector<Finding> findings = lit.scene().findings;
@@ -88,6 +68,7 @@ int close_calculation(const CommonOptions& options, const LitScene& lit,
     findings.insert(findings.end(), more->begin(), more->end());
   }
   say_findings(options, findings);
+  if (is_worth_telling(summary.regions)) say(options, table_of(summary.regions));
   if (options.json) {
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - summary.start;
     const nlohmann::ordered_json json{{"seconds", time.count()},
@@ -99,7 +80,7 @@ int close_calculation(const CommonOptions& options, const LitScene& lit,
                                       {"out_of_tolerance", summary.out_of_tolerance},
                                       {"sky", lit.sky().description},
                                       {"horizontal_lux", lit.source().unobstructed_lux()},
-                                      {"plan", plan_json(summary.regions)}};
+                                      {"plan", json_of(summary.regions)}};
     fmt::print("{}\n", json.dump(2));
   }
   return summary.out_of_tolerance > 0 ? kToleranceNotReached : kDone;

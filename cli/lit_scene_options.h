@@ -29,7 +29,10 @@ struct LitSceneOptions {
   double mu = 1.0;
 };
 
+/// All but `--out`.
 void add_lit_scene_options(CLI::App& app, LitSceneOptions& options);
+/// `--out`, which must be given.
+void add_out_option(CLI::App& app, LitSceneOptions& options);
 
 /// @throws InputError, ResourceError as the readers, the sky and the engine do
 LitScene load_lit_scene(const LitSceneOptions& options, Progress& progress);

@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -25,14 +26,14 @@ constexpr double kFinerPilots = 4.0;       // times the tolerance of what they a
 constexpr double kFinestPilots = 0.1;      // percent
 constexpr std::size_t kFewSensors = 5000;  // are lit before a plan is made
 constexpr double kSoon_s = 2.0;            // not worth a plan
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 // Maps.
 constexpr double kTexelPerPercent_m = 0.35;  // of tolerance
 constexpr double kFinestTexel_m = 0.1, kCoarsestTexel_m = 8.0;
 constexpr int kLeastTexels = 128, kMostTexels = 2048, kUsualTexels = 1024;
 constexpr std::size_t kMostRegions = 64;
-constexpr double kLeastMap_s = 0.0005, kLeastLook_s = 1.5e-8;  // no machine is faster
-constexpr std::size_t kTrials = 8;                             // elements drawn to learn the time
+constexpr std::size_t kTrials = 4;  // elements that tell the time
 
 // Elements.
 constexpr std::size_t kFewestElements = 24, kMostElements = 4096;
@@ -128,66 +129,44 @@ class RegionPlanner {
     told.sensors = work.sensor.size();
     const Sensors here = sensors_of(sensors_, work.sensor);
     choose_pilots(work);
-    if (method_.detail != Detail::Budget) return plan_shared(work, here);
-    const Sensors pilots = sensors_of(here, work.pilots.sensor);
-    const bool may_choose = method_.engine == EngineChoice::Auto;
-    if (may_choose || method_.is_predicted) time_rays(pilots, told);
-    if (method_.engine == EngineChoice::Rays) return take_rays(told, "asked for");
-    if (may_choose && !method_.is_predicted && told.rays_s < kSoon_s) {
-      return take_rays(told, "done soon");
+    const bool may_rays = method_.engine != EngineChoice::ShadowMaps;
+    const bool may_maps = method_.engine != EngineChoice::Rays;
+    const bool is_timed = method_.is_predicted || (may_rays && may_maps) || is_picture();
+    const bool may_be_apart = may_rays && method_.detail == Detail::Budget;
+    if (may_be_apart || (method_.is_predicted && method_.detail == Detail::Budget)) {
+      time_rays(sensors_of(here, work.pilots.sensor), told);
+      told.elements = source_.element_count();
+      if (!method_.is_predicted && told.rays_s < kSoon_s) {
+        told.why = "done soon";
+        return;
+      }
     }
-    RegionWork by_maps = work;
-    plan_maps(by_maps, here);
-    if (may_choose && told.rays_s < least_time(by_maps.told)) {
-      return take_rays(told, "no maps are that fast");
+    RegionWork shared = work;
+    PlannedRegion& other = shared.told;
+    other.is_shared = true;
+    choose_maps(shared, here);
+    double ray_s = kNever, map_s = kNever;  // a direction
+    if (is_timed && may_rays) ray_s = seconds_a_direction(Engine::Rays, here, other);
+    if (is_timed && may_maps) map_s = seconds_a_direction(Engine::ShadowMaps, here, other);
+    const double worth = may_be_apart ? told.rays_s / std::min(ray_s, map_s) : kNever;
+    const bool is_enough = choose_elements(shared, sensors_of(here, work.pilots.sensor), worth);
+    if (is_enough && std::isfinite(map_s) && std::isfinite(other.reach_m)) {
+      map_s = seconds_a_direction(Engine::ShadowMaps, here, other);
     }
-    if (may_choose || method_.is_predicted)
-      by_maps.told.maps_s = time_of(Engine::ShadowMaps, here, by_maps.told);
-    if (may_choose && told.rays_s < by_maps.told.maps_s) {
-      told.maps_s = by_maps.told.maps_s;
-      return take_rays(told, "sooner done");
-    }
-    work = by_maps;
-    work.told.engine = Engine::ShadowMaps;
-    work.told.why = may_choose ? "sooner done" : "asked for";
+    if (is_enough && is_timed && may_rays) other.shared_s = ray_s * maps_of(other);
+    if (is_enough && is_timed && may_maps) other.maps_s = map_s * maps_of(other);
+    told.shared_s = other.shared_s, told.maps_s = other.maps_s;
+    const bool maps_win = may_maps && (!may_rays || other.maps_s < other.shared_s);
+    const double best = maps_win ? other.maps_s : other.shared_s;
+    if (!may_be_apart || (is_enough && best < told.rays_s)) work = shared;
+    if (work.told.is_shared && maps_win) work.told.engine = Engine::ShadowMaps;
+    work.told.why = may_rays && may_maps ? "sooner done" : "asked for";
   }
 
  private:
+  bool is_picture() const { return method_.picture_tolerance_pct > 0.0; }
   static double maps_of(const PlannedRegion& told) {
     return static_cast<double>(told.elements + told.sun_directions);
-  }
-  static double least_time(const PlannedRegion& told) {
-    return maps_of(told) * (kLeastMap_s + kLeastLook_s * static_cast<double>(told.sensors));
-  }
-
-  void take_rays(PlannedRegion& told, const char* why) const {
-    told.engine = Engine::Rays;
-    told.why = why;
-    told.elements = source_.element_count();
-  }
-
-  void plan_maps(RegionWork& work, const Sensors& here) const {
-    const Sensors pilots = sensors_of(here, work.pilots.sensor);
-    judge_pilots(work, pilots);
-    choose_maps(work, here);
-    choose_elements(work, pilots);
-  }
-
-  /// All elements for all sensors, whoever is asked.
-  void plan_shared(RegionWork& work, const Sensors& here) const {
-    plan_maps(work, here);
-    PlannedRegion& told = work.told;
-    const bool may_choose = method_.engine == EngineChoice::Auto;
-    if (may_choose || method_.is_predicted) {
-      told.rays_s = time_of(Engine::Rays, here, told);
-      if (method_.engine != EngineChoice::Rays && !(may_choose && told.rays_s < least_time(told))) {
-        told.maps_s = time_of(Engine::ShadowMaps, here, told);
-      }
-    }
-    const bool by_maps =
-        method_.engine == EngineChoice::ShadowMaps || (may_choose && told.maps_s < told.rays_s);
-    told.engine = by_maps ? Engine::ShadowMaps : Engine::Rays;
-    told.why = may_choose ? "sooner done" : "asked for";
   }
 
   void choose_pilots(RegionWork& work) const {
@@ -243,18 +222,20 @@ class RegionPlanner {
     told.sun_directions = directions_on_sun(source_, options_.tolerance_pct);
   }
 
-  /// As few elements as give the pilots what they are known to receive.
-  void choose_elements(RegionWork& work, const Sensors& pilots) const {
+  /// As few elements as give the pilots what they are known to receive; false if that takes more
+  /// than are worth it.
+  bool choose_elements(RegionWork& work, const Sensors& pilots, double worth) const {
+    judge_pilots(work, pilots);
     PlannedRegion& told = work.told;
-    if (source_.model == nullptr) return;
+    if (source_.model == nullptr) return true;
     if (method_.detail != Detail::Budget && source_.partition) {
       work.partition = *source_.partition;
       told.elements = source_.elements->size();
-      return;
+      return true;
     }
     const std::size_t most = source_.partition ? source_.elements->size() : kMostElements;
     const Sensors at = lifted(pilots, engines_.rays().lift_m());
-    for (double n = kFewestElements;; n *= kMoreElements) {
+    for (double n = kFewestElements; n < kMoreElements * worth; n *= kMoreElements) {
       const std::size_t count = std::min(most, static_cast<std::size_t>(n));
       work.partition = partition_of(count);
       const SkyPartition partition = partition_sky(*source_.model, work.partition);
@@ -264,11 +245,11 @@ class RegionPlanner {
           shared_light(engines_.rays(), engines_.rays(), at, source_, partition,
                        static_cast<int>(told.sun_directions), quiet);
       const bool is_enough = is_good_enough(work, light);
-      if (is_enough || count == most) {
-        if (method_.detail == Detail::Budget) choose_reach(at, partition, work);
-        return;
-      }
+      if (!is_enough && count < most) continue;
+      if (method_.detail == Detail::Budget) choose_reach(at, partition, work);
+      return true;
     }
+    return false;
   }
 
   PartitionRequest partition_of(std::size_t count) const {
@@ -302,7 +283,7 @@ class RegionPlanner {
       good += interval <= 0.5 * budget.allowed_lux(work.pilots.lux[k]) ? 1 : 0;
     }
     work.told.predicted_error_lux = intervals / count;
-    if (method_.picture_tolerance_pct > 0.0) {
+    if (is_picture()) {
       return missed / count <=
              kPictureShare * method_.picture_tolerance_pct / 100.0 * source_.unobstructed_lux();
     }
@@ -344,8 +325,8 @@ class RegionPlanner {
     }
   }
 
-  /// Time of all directions by one engine, from that of a few.
-  double time_of(Engine engine, const Sensors& here, const PlannedRegion& told) const {
+  /// Clock time of one direction for all sensors by one engine, from that of a few.
+  double seconds_a_direction(Engine engine, const Sensors& here, const PlannedRegion& told) const {
     if (source_.model == nullptr) return 0.0;
     PartitionRequest request;
     request.method = PartitionMethod::Uniform;
@@ -360,7 +341,7 @@ class RegionPlanner {
       trial.light(asked, few, quiet);
       const auto start = Clock::now();
       trial.light(asked, at, quiet);
-      return seconds_since(start) / static_cast<double>(trial.size()) * maps_of(told);
+      return seconds_since(start) / static_cast<double>(trial.size());
     };
     if (engine == Engine::Rays) return seconds(engines_.rays());
     return seconds(engines_.maps().with(told.texels, told.reach_m));
@@ -385,8 +366,8 @@ class RegionPlanner {
 
 Parts parts_of(const Sensors& sensors, const IlluminanceOptions& options,
                const LightMethod& method) {
-  if (method.engine == EngineChoice::Rays) return {all_of(sensors.size())};
   if (method.eye) return split_by_distance(sensors, *method.eye);
+  if (method.engine == EngineChoice::Rays) return {all_of(sensors.size())};
   return split_by_extent(sensors, kMostTexels * texel_of(options.tolerance_pct));
 }
 
@@ -436,8 +417,9 @@ std::vector<RegionWork> plan_light(const Sensors& sensors, const Engines& engine
                                    const LightMethod& method, Progress& progress) {
   std::vector<RegionWork> plan;
   if (sensors.size() == 0) return plan;
-  const bool is_plain = method.engine == EngineChoice::Rays ||
-                        (method.engine == EngineChoice::Auto && sensors.size() < kFewSensors);
+  const bool is_plain =
+      (method.engine == EngineChoice::Rays && !(method.picture_tolerance_pct > 0.0)) ||
+      (method.engine != EngineChoice::ShadowMaps && sensors.size() < kFewSensors);
   if (is_plain && method.detail == Detail::Budget && !method.is_predicted) {
     RegionWork all;
     all.sensor = all_of(sensors.size());

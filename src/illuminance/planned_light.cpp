@@ -32,7 +32,7 @@ class PlannedLight {
 
   void light(RegionWork& work) {
     const auto start = Clock::now();
-    if (work.told.engine == Engine::Rays && method_.detail == Detail::Budget) {
+    if (!work.told.is_shared) {
       by_rays(work);
     } else {
       by_shared_elements(work);
@@ -128,9 +128,9 @@ class PlannedLight {
   IlluminanceResult result_;
 };
 
-bool is_all_by_rays(const std::vector<RegionWork>& plan) {
-  return std::all_of(plan.begin(), plan.end(),
-                     [](const RegionWork& work) { return work.told.engine == Engine::Rays; });
+bool is_each_for_itself(const std::vector<RegionWork>& plan) {
+  return std::none_of(plan.begin(), plan.end(),
+                      [](const RegionWork& work) { return work.told.is_shared; });
 }
 
 /// Rays light all regions at once: one line for all of them.
@@ -144,7 +144,7 @@ PlannedRegion told_together(const std::vector<RegionWork>& plan) {
         (sensors * all.predicted_error_lux + others * more.predicted_error_lux) /
         (sensors + others);
     all.sensors += more.sensors;
-    all.rays_s += more.rays_s, all.maps_s += more.maps_s;
+    all.rays_s += more.rays_s, all.shared_s += more.shared_s, all.maps_s += more.maps_s;
   }
   return all;
 }
@@ -160,7 +160,7 @@ IlluminanceResult illuminate(const Sensors& sensors, const Engines& engines,
         "use --lod budget or off");
   }
   std::vector<RegionWork> plan = plan_light(sensors, engines, source, options, method, progress);
-  if (is_all_by_rays(plan) && method.detail == Detail::Budget) {
+  if (is_each_for_itself(plan)) {
     const auto start = Clock::now();
     IlluminanceResult result = illuminate(sensors, engines.rays(), source, options, progress);
     const std::chrono::duration<double> time = Clock::now() - start;
@@ -180,6 +180,31 @@ IlluminanceResult illuminate(const Sensors& sensors, const Engines& engines,
     add_reflection(sensors, engines.rays(), source, options, progress, result);
   }
   return result;
+}
+
+double predicted_reflection_s(const Sensors& sensors, const RayVisibility& rays,
+                              const DaylightSource& source, const IlluminanceOptions& options) {
+  constexpr std::size_t kFew = 64, kMore = 256;
+  if (options.bounces == 0) return 0.0;
+  const auto seconds = [&](std::size_t count, int bounces) {
+    std::vector<std::uint32_t> chosen;
+    for (std::size_t k = 0; k < count; ++k) {
+      chosen.push_back(static_cast<std::uint32_t>(k * sensors.size() / count));
+    }
+    IlluminanceOptions some = options;
+    some.share_reflected_m = 0.0;
+    some.bounces = bounces;
+    Progress quiet;
+    const auto start = Clock::now();
+    illuminate(sensors_of(sensors, chosen), rays, source, some, quiet);
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  };
+  const std::size_t more = std::min(kMore, sensors.size()), few = std::min(kFew, more / 2);
+  if (few == 0) return seconds(more, options.bounces) - seconds(more, 0);
+  const double with = seconds(more, options.bounces) - seconds(few, options.bounces);
+  const double without = seconds(more, 0) - seconds(few, 0);
+  return std::max(0.0, with - without) * static_cast<double>(sensors.size()) /
+         static_cast<double>(more - few);
 }
 
 }  // namespace tenku

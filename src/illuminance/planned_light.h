@@ -19,4 +19,9 @@ IlluminanceResult illuminate(const Sensors& sensors, const Engines& engines,
                              const DaylightSource& source, const IlluminanceOptions& options,
                              const LightMethod& method, Progress& progress);
 
+/// Seconds that the reflected light of the sensors is expected to take, from that of a few: more
+/// than it takes where later sensors find what earlier ones have stored.
+double predicted_reflection_s(const Sensors& sensors, const RayVisibility& rays,
+                              const DaylightSource& source, const IlluminanceOptions& options);
+
 }  // namespace tenku

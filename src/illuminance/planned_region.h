@@ -24,16 +24,22 @@ struct PlannedRegion {
   Engine engine = Engine::Rays;
   std::string why;
   std::size_t sensors = 0;
-  std::size_t elements = 0, sun_directions = 0;  ///< shadow maps: directions, each a map
-  int texels = 0;                                ///< along a side of a map
+  /// Whether all sensors look in the same directions, one in each element; otherwise each has its
+  /// own way (SensorSky, ElementSky). Maps are always shared.
+  bool is_shared = false;
+  std::size_t elements = 0, sun_directions = 0;
+  int texels = 0;  ///< along a side of a map
   double texel_m = 0.0;
   double reach_m = std::numeric_limits<double>::infinity();  ///< farther casters are left out
   double left_out_lux = 0.0;  ///< what they could add, at 95 % of the pilots at most
-  double rays_s = kUnknown, maps_s = kUnknown;  ///< predicted for either engine
+  /// Predicted: rays for each sensor by itself, rays in shared directions, maps.
+  double rays_s = kUnknown, shared_s = kUnknown, maps_s = kUnknown;
   double predicted_error_lux = kUnknown;
   double measured_s = kUnknown, measured_error_lux = kUnknown;
 
-  double predicted_s() const { return engine == Engine::Rays ? rays_s : maps_s; }
+  double predicted_s() const {
+    return engine == Engine::ShadowMaps ? maps_s : is_shared ? shared_s : rays_s;
+  }
 };
 
 }  // namespace tenku

@@ -135,39 +135,71 @@ void compose(const ShadingPoints& points, const SensorIlluminance& light,
   result.error_mean = count > 0 ? sum / static_cast<double>(count) : 0.0;
 }
 
+/// What a picture asks to be lit, and how.
+struct ViewWork {
+  PerspectiveCamera camera;
+  ShadingPoints points;
+  SeenPolygons polygons;
+  LightMethod method;
+
+  ViewWork(const ViewRequest& request, const Engines& engines, const DaylightSource& source,
+           const SkyModel* sky, Progress& progress)
+      : camera(request.view),
+        points(find_shading_points(camera, engines.rays(), backdrop_of(source, sky), progress)),
+        method(request.method) {
+    method.eye = camera.eye();
+    method.picture_tolerance_pct = request.tolerance_pct;
+    if (method.detail != Detail::Paper) return;
+    polygons = seen_polygons(points, camera, engines.rays());
+    method.polygons = &polygons;
+  }
+  ViewWork(const ViewWork&) = delete;
+  ViewWork& operator=(const ViewWork&) = delete;
+};
+
 }  // namespace
 
 RenderedView render_view(const ViewRequest& request, const Engines& engines,
                          const DaylightSource& source, const SkyModel* sky, Progress& progress) {
-  const RayVisibility& rays = engines.rays();
-  const PerspectiveCamera camera(request.view);
-  const ShadingPoints points =
-      find_shading_points(camera, rays, backdrop_of(source, sky), progress);
-  LightMethod method = request.method;
-  method.eye = camera.eye();
-  method.picture_tolerance_pct = request.tolerance_pct;
-  SeenPolygons polygons;
-  if (method.detail == Detail::Paper) {
-    polygons = seen_polygons(points, camera, rays);
-    method.polygons = &polygons;
-  }
+  const ViewWork work(request, engines, source, sky, progress);
+  const ShadingPoints& points = work.points;
   IlluminanceResult light =
-      illuminate(points.sensors, engines, source, options_of(request), method, progress);
+      illuminate(points.sensors, engines, source, options_of(request), work.method, progress);
   smooth_sky(points, light.values);
   if (request.bounces > 0 && points.sensors.size() > 0) {
     IlluminanceOptions options = options_of(request);
     options.bounces = request.bounces;
     // Some twenty representatives are blended in a pixel.
-    const ReflectedSharing sharing(points.sensors, sharing_by_pixels(points, camera));
-    add_shared_reflection(sharing, rays, source, options, progress, light);
+    const ReflectedSharing sharing(points.sensors, sharing_by_pixels(points, work.camera));
+    add_shared_reflection(sharing, engines.rays(), source, options, progress, light);
   }
   RenderedView result;
-  result.luminance = Image(camera.width(), camera.height());
+  result.luminance = Image(work.camera.width(), work.camera.height());
   result.rays = points.rays + light.rays;
   result.regions = light.regions;
   tell_missed(points, light.is_missed, result);
-  compose(points, light.values, rays.materials(), result);
+  compose(points, light.values, engines.rays().materials(), result);
   return result;
+}
+
+ViewPlan plan_view(const ViewRequest& request, const Engines& engines, const DaylightSource& source,
+                   Progress& progress) {
+  ViewWork work(request, engines, source, nullptr, progress);
+  work.method.is_predicted = true;
+  IlluminanceOptions options = options_of(request);
+  ViewPlan plan;
+  for (RegionWork& region :
+       plan_light(work.points.sensors, engines, source, options, work.method, progress)) {
+    plan.regions.push_back(std::move(region.told));
+  }
+  if (request.bounces == 0 || work.points.sensors.size() == 0) return plan;
+  options.bounces = request.bounces;
+  const ReflectedSharing sharing(work.points.sensors, sharing_by_pixels(work.points, work.camera));
+  std::vector<std::uint32_t> few(sharing.representatives().begin(),
+                                 sharing.representatives().end());
+  plan.reflection_s =
+      predicted_reflection_s(sensors_of(work.points.sensors, few), engines.rays(), source, options);
+  return plan;
 }
 
 }  // namespace tenku

@@ -46,4 +46,15 @@ struct RenderedView {
 RenderedView render_view(const ViewRequest& request, const Engines& engines,
                          const DaylightSource& source, const SkyModel* sky, Progress& progress);
 
+/// What a picture would take.
+struct ViewPlan {
+  std::vector<PlannedRegion> regions;
+  double reflection_s = 0.0;
+};
+
+/// The plan of `render_view`, with times and errors for either engine.
+/// @throws as `render_view`
+ViewPlan plan_view(const ViewRequest& request, const Engines& engines, const DaylightSource& source,
+                   Progress& progress);
+
 }  // namespace tenku

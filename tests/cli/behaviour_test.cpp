@@ -106,7 +106,7 @@ TEST(Contract, EveryCommandHasHelpWithAnExample) {
   const fs::path folder = test_folder();
   const auto all = run_tenku("--help", folder);
   EXPECT_EQ(all.exit_code, 0);
-  for (const std::string name : {"inspect", "sun", "sky", "illuminance", "render", "run"}) {
+  for (const std::string name : {"inspect", "sun", "sky", "plan", "illuminance", "render", "run"}) {
     EXPECT_NE(all.out.find(name), std::string::npos) << name;
     const auto help = run_tenku(name + " --help", folder);
     EXPECT_EQ(help.exit_code, 0);

@@ -187,7 +187,10 @@ TEST(WrongInput, CalculationOptionsOutOfRangeAreRefused) {
                   {points + " --tolerance two", "two"},
                   {points + " --bounces -1", "bounces -1"},
                   {points + " --bounces 1.5", "1.5"},
-                  {points + " --engine shadow-maps", "no shadow-map engine"},
+                  {points + " --engine shadow-map", "shadow-maps"},
+                  {points + " --lod papers", "paper"},
+                  {points + " --lod paper", "polygons in a picture"},
+                  {points + " --gl metal", "metal"},
                   {points + " --engine rasta", "rasta"},
                   {points + " --up x", "'x'"},
                   {points + " --scale 0", "--scale"},
@@ -256,11 +259,11 @@ TEST(WrongInput, StudiesAreRefusedBeforeTheWork) {
   const fs::path folder = test_folder();
   write_box_scene(folder);
   const std::string begin = "[scene]\nfile = \"box.obj\"\n" + kSun + "size = [9000, 9000]\n";
-  write_text(folder / "maps.toml", begin + "[calculation]\nengine = \"shadow-maps\"\n");
+  write_text(folder / "maps.toml", begin + "[calculation]\nlod = \"none\"\n");
   write_text(folder / "points.toml", begin + "[[sensors]]\nfile = \"no.pts\"\n");
   write_text(folder / "key.toml", begin + "[calculation]\nbounce = 1\n");
   write_text(folder / "cut.toml", "[scene\n");
-  expect_refused({{"run maps.toml --out results", "shadow-map"},
+  expect_refused({{"run maps.toml --out results", "budget"},
                   {"run points.toml --out results", "no.pts"},
                   {"run key.toml --out results", "bounces"},
                   {"run cut.toml --out results", "cut.toml"}},

@@ -148,7 +148,7 @@ sun_path = false
   EXPECT_EQ(study.calculation.tolerance_percent, 0.5);
   EXPECT_EQ(study.calculation.bounces, 0);
   EXPECT_EQ(study.calculation.seed, 42U);
-  EXPECT_EQ(study.calculation.engine, "rays");
+  EXPECT_EQ(study.calculation.engine, EngineChoice::Rays);
   ASSERT_TRUE(study.calculation.partition);
   EXPECT_EQ(study.calculation.partition->method, PartitionMethod::Uniform);
   EXPECT_EQ(study.calculation.partition->elements, 300U);

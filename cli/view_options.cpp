@@ -1,0 +1,75 @@
+#include "cli/view_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <tuple>
+#include <utility>
+
+#include "core/error.h"
+#include "study/view_output.h"
+
+namespace tenku {
+namespace {
+
+Vec3 point_of(const std::string& text, const char* option) {
+  Vec3 p;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &p.x, &p.y, &p.z, &rest) != 3 || !is_finite(p)) {
+    throw InputError(fmt::format("{} {}: three numbers E,N,U are needed", option, text));
+  }
+  return p;
+}
+
+std::pair<int, int> size_of(const std::string& text) {
+  constexpr int kLargestSide = 16384;
+  int width = 0, height = 0;
+  char rest = 0;
+  if (text.size() > 16 || std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2) {
+    throw InputError(fmt::format("--size {}: WIDTHxHEIGHT in pixels is needed", text));
+  }
+  if (std::min(width, height) < 1 || std::max(width, height) > kLargestSide) {
+    throw InputError(fmt::format("--size {}: a side is not in 1..{} pixels", text, kLargestSide));
+  }
+  return {width, height};
+}
+
+}  // namespace
+
+void check_view_options(const ViewOptions& options) {
+  size_of(options.size);
+  if (options.eye.empty() != options.target.empty()) {
+    throw InputError("give both --eye and --target, or neither for an overview");
+  }
+  if (!(options.fov_deg > 0.0 && options.fov_deg < 180.0)) {
+    throw InputError(fmt::format("--fov {}: not between 0 and 180 degrees", options.fov_deg));
+  }
+  if (options.eye.empty()) return;
+  if (point_of(options.eye, "--eye") == point_of(options.target, "--target")) {
+    throw InputError(fmt::format("--eye and --target are the same point, {}", options.eye));
+  }
+}
+
+void add_view_options(CLI::App& app, ViewOptions& options) {
+  app.add_option("--eye", options.eye, "where the camera is: E,N,U in the scene's coordinates");
+  app.add_option("--target", options.target, "what it looks at: E,N,U");
+  app.add_option("--fov", options.fov_deg, "horizontal field of view, degrees (default 60)");
+  app.add_option("--size", options.size, "pixels, WIDTHxHEIGHT (default 512x512)");
+}
+
+PerspectiveView resolve_view(const ViewOptions& options, const LitScene& lit) {
+  PerspectiveView view;
+  std::tie(view.width, view.height) = size_of(options.size);
+  view.horizontal_fov = Angle::degrees(options.fov_deg);
+  if (options.eye.empty()) {
+    place_overview(lit, view);
+  } else {
+    view.eye = lit.scene().frame.to_local(point_of(options.eye, "--eye"));
+    view.target = lit.scene().frame.to_local(point_of(options.target, "--target"));
+  }
+  return view;
+}
+
+}  // namespace tenku
