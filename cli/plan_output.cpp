@@ -53,12 +53,13 @@ std::string table_of(const std::vector<PlannedRegion>& regions) {
                                  "shared", "maps", "took", "error +-", "found +-");
   for (std::size_t k = 0; k < regions.size(); ++k) {
     const PlannedRegion& r = regions[k];
-    text += "\n" + fmt::format(
-                       kLine, k + 1, name_of(r.engine), r.sensors,
-                       r.elements == 0 ? "-" : std::to_string(r.elements + r.sun_directions),
-                       maps_of(r), in_words(r.rays_s, "s"), in_words(r.shared_s, "s"),
-                       in_words(r.maps_s, "s"), in_words(r.measured_s, "s"),
-                       in_words(r.predicted_error_lux, "lx"), in_words(r.measured_error_lux, "lx"));
+    text.push_back('\n');
+    text +=
+        fmt::format(kLine, k + 1, name_of(r.engine), r.sensors,
+                    r.elements == 0 ? "-" : std::to_string(r.elements + r.sun_directions),
+                    maps_of(r), in_words(r.rays_s, "s"), in_words(r.shared_s, "s"),
+                    in_words(r.maps_s, "s"), in_words(r.measured_s, "s"),
+                    in_words(r.predicted_error_lux, "lx"), in_words(r.measured_error_lux, "lx"));
     text += "  " + r.why;
     if (!std::isfinite(r.reach_m)) continue;
     text += fmt::format(

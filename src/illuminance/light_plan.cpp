@@ -38,6 +38,7 @@ constexpr std::size_t kTrials = 4;  // elements that tell the time
 // Elements.
 constexpr std::size_t kFewestElements = 24, kMostElements = 4096;
 constexpr double kMoreElements = 1.4142135623730951;
+constexpr double kDark = 0.05;         // of the unobstructed light
 constexpr double kPictureShare = 0.3;  // of the tolerance, for the mean error of a picture
 constexpr double kPartOfReach = 0.1;   // of the tolerance, for casters that are left out
 constexpr double kLeastScale = 5e-4;   // of the unobstructed light: what no outline tells
@@ -270,8 +271,11 @@ class RegionPlanner {
     std::vector<double> value(light.sky_lux.size());
     for (std::size_t k = 0; k < value.size(); ++k) value[k] = light.sky_lux[k] + light.sun_lux[k];
     const double factor = work.pilots.interval_per_scale(value, light.scale_lux);
-    const ErrorBudget budget(options_.tolerance_pct,
-                             options_.floor_share * source_.unobstructed_lux());
+    // Where the user wants maps, dark sensors do not drive the number of elements up: what they
+    // miss of the tolerance is told.
+    const double floor_share =
+        method_.engine == EngineChoice::ShadowMaps ? kDark : options_.floor_share;
+    const ErrorBudget budget(options_.tolerance_pct, floor_share * source_.unobstructed_lux());
     std::size_t good = 0;
     double intervals = 0.0, missed = 0.0;
     const auto count = static_cast<double>(value.size());
