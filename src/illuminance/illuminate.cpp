@@ -21,6 +21,7 @@ namespace {
 constexpr std::size_t kGrain = 16;      // sensors a task
 constexpr double kSureOfDark = 512.0;   // slices times tolerance after which no sky is believed
 constexpr int kMostSharedPaths = 2048;  // more would know one place better than those around it
+constexpr double kDark_lux = 0.01;      // a moonless night, and what is left of rounding
 constexpr double kBlended =
     2.5;  // errors of about nine blended representatives in one of their mean
 
@@ -182,7 +183,7 @@ void judge_whole(const Sensors& sensors, const ErrorBudget& budget, IlluminanceR
 }  // namespace
 
 bool is_dark(const SensorIlluminance& values, std::size_t sensor) {
-  return !(values.sky_view[sensor] > 0.0) && !(values.total_lux(sensor) > 0.0);
+  return !(values.sky_view[sensor] > 0.0) && !(values.total_lux(sensor) > kDark_lux);
 }
 
 void find_dark_sensors(const Sensors& sensors, const SensorIlluminance& values,
