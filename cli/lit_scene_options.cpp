@@ -89,14 +89,16 @@ int close_calculation(const CommonOptions& options, const LitScene& lit,
 void say_findings(const CommonOptions& options, const std::vector<Finding>& findings) {
   std::map<std::string, std::pair<const Finding*, std::size_t>> kinds;
   for (const Finding& finding : findings) {
-    auto& [first, count] = kinds[finding.code];
+    // Those of whole results (sensors, pixels) differ by their words; those of objects are counted.
+    const bool is_of_all = finding.object.empty() && finding.where.empty();
+    auto& [first, count] = kinds[finding.code + (is_of_all ? finding.what : "")];
     if (first == nullptr) first = &finding;
     count += finding.count;
   }
-  for (const auto& [code, kind] : kinds) {
+  for (const auto& [key, kind] : kinds) {
     const auto& [first, count] = kind;
     const std::string& place = first->object.empty() ? first->where : first->object;
-    say(options, fmt::format("{}: {} x {}: {}{}{}", name_of(first->severity), count, code,
+    say(options, fmt::format("{}: {} x {}: {}{}{}", name_of(first->severity), count, first->code,
                              first->what, place.empty() ? "" : ", first at ", place));
   }
 }

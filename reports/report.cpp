@@ -155,6 +155,11 @@ std::string surfaces(const ReportContent& content) {
   html += element("p",
                   "Averages are weighted by area. The last column is the average half-width "
                   "of the 95 % interval of the single values.");
+  if (content.hidden_area_m2 > 0.0) {
+    html += element("p", "Left out: " + rounded_text(content.hidden_area_m2) +
+                             " m² that nothing reaches, such as ground under buildings and walls "
+                             "between them.");
+  }
   return content.band_limits.empty() ? html : html + band_table(content);
 }
 

@@ -53,6 +53,7 @@ struct ReportContent {
   std::string histogram_svg, sun_path_svg;  ///< of `histogram.h`, `sun_path_diagram.h`; not escaped
   std::vector<double> band_limits;          ///< lux, ascending
   std::vector<ReportSurface> surfaces;
+  double hidden_area_m2 = 0.0;  ///< of surfaces that nothing reaches, not in `surfaces`
   std::vector<Finding> findings;
   std::vector<std::string> method;  ///< paragraphs
   std::string error_statement;

@@ -9,6 +9,9 @@ namespace {
 
 constexpr double kRadius = 250.0, kCentreX = 310.0, kCentreY = 310.0;  // user units
 constexpr double kWidth = 700.0, kHeight = 620.0;
+constexpr double kSun = 9.0;      // radius of its disc, user units
+constexpr double kAtRim = 0.9;    // of the radius, beyond which a label reaches out of the horizon
+constexpr double kLabel = 0.035;  // half the height of a label, of the radius
 
 std::string at(double x, double y) {
   return coordinate(kCentreX + kRadius * x) + " " + coordinate(kCentreY - kRadius * y);
@@ -88,7 +91,7 @@ std::string spokes(const std::vector<double>& taken) {
     svg += "<path class=\"ring\" d=\"M" + at(0.0, 0.0) + "L" + at(x, y) + "\"/>\n";
     const bool free = !is_near(a, taken, 0.15);
     if (azimuth % 90 == 0) {
-      const double r = free ? 1.09 : 1.45;
+      const double r = free ? 1.09 : 1.3;
       const char letter = "NESW"[azimuth / 90];
       svg += text_at(r * x, r * y, std::string(1, letter), "cardinal", "middle");
     } else if (free) {
@@ -107,12 +110,24 @@ std::string day_lines(const SunPathDiagram& diagram, std::vector<double>& taken)
     const SunPathPlace p = sun_path_place(parts.front().front(), diagram.projection);
     const double angle = std::atan2(p.x, p.y);
     if (is_near(angle, taken, 0.045)) continue;
-    const bool rises = std::hypot(p.x, p.y) > 0.999;
+    const bool rises = std::hypot(p.x, p.y) > kAtRim;
     if (rises) taken.push_back(angle);
     svg += text_at(1.025 * p.x, 1.025 * p.y, day.label, rises ? "daylabel" : "daylabel halo",
                    anchor_for(p.x));
   }
   return svg;
+}
+
+// Beside the end of an hour's line, where the disc of the sun does not cover it.
+SunPathPlace hour_label_place(SunPathPlace end, const SunPathDiagram& diagram) {
+  const double free = kSun / kRadius + 1.5 * kLabel;
+  for (const double up : {kLabel, 3.0 * kLabel, -2.0 * kLabel, -4.0 * kLabel}) {
+    const SunPathPlace place{end.x, end.y + up};
+    if (!diagram.instant) return place;
+    const SunPathPlace sun = sun_path_place(*diagram.instant, diagram.projection);
+    if (std::hypot(place.x - sun.x, place.y - sun.y) > free) return place;
+  }
+  return end;
 }
 
 std::string hour_lines(const SunPathDiagram& diagram) {
@@ -127,8 +142,8 @@ std::string hour_lines(const SunPathDiagram& diagram) {
       }
     }
     if (highest == nullptr || hour.label.empty()) continue;
-    SunPathPlace p = sun_path_place(*highest, diagram.projection);
-    labels += text_at(p.x, p.y + 0.035, hour.label, "hourlabel halo", "middle");
+    const SunPathPlace p = hour_label_place(sun_path_place(*highest, diagram.projection), diagram);
+    labels += text_at(p.x, p.y, hour.label, "hourlabel halo", "middle");
   }
   return svg + labels;
 }
@@ -138,7 +153,7 @@ std::string instant_mark(const SunPathDiagram& diagram) {
   const SunPathPlace p = sun_path_place(*diagram.instant, diagram.projection);
   const auto sun_at = [](double x, double y) {
     return "<circle class=\"sun\" cx=\"" + coordinate(kCentreX + kRadius * x) + "\" cy=\"" +
-           coordinate(kCentreY - kRadius * y) + "\" r=\"9\"/>\n";
+           coordinate(kCentreY - kRadius * y) + "\" r=\"" + coordinate(kSun) + "\"/>\n";
   };
   // Its name stands in the corner, where no line passes.
   return "<path class=\"beam\" d=\"M" + at(0.0, 0.0) + "L" + at(p.x, p.y) + "\"/>\n" +
@@ -182,6 +197,9 @@ std::string sun_path_svg(const SunPathDiagram& diagram) {
                     escaped(diagram.title) + "</title>\n";
   svg += kStyle;
   svg += rings(diagram.projection) + spokes(taken) + hour_lines(diagram) + days;
+  const bool keeps_angles = diagram.projection == SunPathProjection::Stereographic;
+  svg += text_at(1.54, -1.2, keeps_angles ? "stereographic projection" : "equidistant projection",
+                 "alt", "end");
   return svg + instant_mark(diagram) + "</svg>\n";
 }
 

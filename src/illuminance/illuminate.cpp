@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <optional>
+#include <sstream>
 #include <string>
 
 #include "core/error.h"
@@ -20,6 +21,7 @@ namespace {
 constexpr std::size_t kGrain = 16;      // sensors a task
 constexpr double kSureOfDark = 512.0;   // slices times tolerance after which no sky is believed
 constexpr int kMostSharedPaths = 2048;  // more would know one place better than those around it
+constexpr double kDark_lux = 0.01;      // a moonless night, and what is left of rounding
 constexpr double kBlended =
     2.5;  // errors of about nine blended representatives in one of their mean
 
@@ -61,7 +63,8 @@ class SensorWork {
                        SampleRandom(options.seed, at.index, 1));
   }
 
-  /// Refines until the budget is met; false if the limit of effort came first.
+  /// Refines until the budget is met; false if the limit of effort came first, or if what no
+  /// refinement mends (elements, bounces left out) is over the tolerance.
   bool finish(const ErrorBudget& budget, const Progress& progress) {
     if (known_direct_ < 0.0) {
       sun_.refine();
@@ -77,7 +80,7 @@ class SensorWork {
       progress.stop_if_cancelled();
       if (!refine_worst()) return false;
     }
-    return elements_ == nullptr || interval_lux(variance(), 0.0) <= budget.allowed_lux(total());
+    return interval() <= budget.allowed_lux(total());
   }
 
   void store(SensorIlluminance& values, std::size_t index) const {
@@ -85,8 +88,7 @@ class SensorWork {
     values.sky_lux[index] = light_of_sky().lux;
     values.reflected_lux[index] = std::max(0.0, reflected_lux());
     values.sky_view[index] = light_of_sky().sky_view;
-    values.error_lux[index] =
-        interval_lux(variance(), reflected_ ? reflected_->left_out_lux() : 0.0);
+    values.error_lux[index] = interval();
   }
 
   std::uint64_t rays_sent() const {
@@ -118,7 +120,10 @@ class SensorWork {
   double refinable_variance() const {
     return sky_.variance() + sun_.variance() + reflected_variance();
   }
-  double variance() const { return refinable_variance() + by_elements_.variance; }
+  double interval() const {
+    return interval_lux(refinable_variance() + by_elements_.variance,
+                        reflected_ ? reflected_->left_out_lux() : 0.0);
+  }
 
   /// Doubles the effort of the part where that gains the most for its rays, of those that can
   /// still be refined.
@@ -156,17 +161,41 @@ class SensorWork {
   double known_direct_ = -1.0;  ///< below zero: not known
 };
 
+std::string place_of(const Sensors& sensors, std::size_t i) {
+  const Vec3 at = sensors.position[i];
+  std::ostringstream text;
+  text.precision(1);
+  text << std::fixed << "sensor " << i + 1 << ", " << at.x << " m east, " << at.y << " m north, "
+       << at.z << " m up of the origin";
+  return text.str();
+}
+
+/// After the reflected light has been added: what is still dark, and what is not exact enough.
+void judge_whole(const Sensors& sensors, const ErrorBudget& budget, IlluminanceResult& result) {
+  const SensorIlluminance& values = result.values;
+  if (budget.allowed_lux(0.0) > 0.0) find_dark_sensors(sensors, values, result.findings);
+  for (std::size_t s = 0; s < values.size(); ++s) {
+    result.is_missed[s] |= !(values.error_lux[s] <= budget.allowed_lux(values.total_lux(s)));
+  }
+  tell_missed(result);
+}
+
 }  // namespace
 
-void find_dark_sensors(const SensorIlluminance& values, std::vector<Finding>& findings) {
+bool is_dark(const SensorIlluminance& values, std::size_t sensor) {
+  return !(values.sky_view[sensor] > 0.0) && !(values.total_lux(sensor) > kDark_lux);
+}
+
+void find_dark_sensors(const Sensors& sensors, const SensorIlluminance& values,
+                       std::vector<Finding>& findings) {
   Finding dark;
   dark.code = "no_light";
   dark.what = "sensors see no sky and receive no light: inside a wall or a closed room?";
   dark.repair = "move them into the open, or check which way their normals point";
   dark.count = 0;
+  std::erase_if(findings, [&](const Finding& f) { return f.code == dark.code; });
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (values.sky_view[i] > 0.0 || values.total_lux(i) > 0.0) continue;
-    if (dark.count++ == 0) dark.where = "sensor " + std::to_string(i + 1);
+    if (is_dark(values, i) && dark.count++ == 0) dark.where = place_of(sensors, i);
   }
   if (dark.count > 0) findings.push_back(std::move(dark));
 }
@@ -174,8 +203,10 @@ void find_dark_sensors(const SensorIlluminance& values, std::vector<Finding>& fi
 void tell_missed(IlluminanceResult& result) {
   Finding finding;
   finding.code = "tolerance_not_reached";
-  finding.what = "sensors met the limit of effort before the tolerance; error_lux tells how near";
-  finding.repair = "a higher tolerance, more elements of a sky divided by hand, or take them so";
+  finding.what = "sensors are less exact than the tolerance; error_lux tells how exact";
+  finding.repair =
+      "a higher tolerance, more bounces where few were asked for, more elements of a sky divided "
+      "by hand, or take them so";
   finding.count = static_cast<std::size_t>(
       std::count(result.is_missed.begin(), result.is_missed.end(), std::uint8_t{1}));
   result.out_of_tolerance = finding.count;
@@ -216,7 +247,7 @@ IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
   result.rays = rays_sent + (cache ? cache->rays_sent() : 0);
   tell_missed(result);
   if (options.known_direct == nullptr && source.unobstructed_lux() > 0.0) {
-    find_dark_sensors(result.values, result.findings);
+    find_dark_sensors(sensors, result.values, result.findings);
   }
   progress.end(std::to_string(sensors.size()) + " sensors, " + std::to_string(result.rays) +
                " rays");
@@ -228,20 +259,21 @@ void add_shared_reflection(const ReflectedSharing& sharing, const RayVisibility&
                            Progress& progress, IlluminanceResult& result) {
   Sensors few;
   IlluminanceOptions::KnownDirect known;
-  for (const std::size_t s : sharing.representatives()) {
+  for (const std::size_t s : sharing.calculated()) {
     few.position.push_back(sharing.sensors().position[s]);
     few.normal.push_back(sharing.sensors().normal[s]);
-    known.lux.push_back(result.values.total_lux(s));
+    // Without sunlight: the sensor may stand for others in the shade beside it.
+    known.lux.push_back(result.values.sky_lux[s]);
     known.sky_view.push_back(result.values.sky_view[s]);
   }
   IlluminanceOptions reflected = options;
   reflected.share_reflected_m = 0.0;
   reflected.known_direct = &known;
   const IlluminanceResult some = illuminate(few, rays, source, reflected, progress);
-  sharing.spread(some.values, rays, result.values);
+  sharing.spread(some.values, result.values);
   result.rays += some.rays;
   for (std::size_t k = 0; k < few.size(); ++k) {
-    result.is_missed[sharing.representatives()[k]] |= some.is_missed[k];
+    result.is_missed[sharing.calculated()[k]] |= some.is_missed[k];
   }
   tell_missed(result);
 }
@@ -250,14 +282,16 @@ void add_reflection(const Sensors& sensors, const RayVisibility& rays, const Day
                     const IlluminanceOptions& options, Progress& progress,
                     IlluminanceResult& result) {
   IlluminanceOptions reflected = options;
+  const ErrorBudget budget(options.tolerance_pct, options.floor_share * source.unobstructed_lux());
   if (options.share_reflected_m > 0.0) {
     reflected.floor_share = 0.01;  // what is shared is not exact to that in any case
     reflected.tolerance_pct = std::min(100.0, kBlended * options.tolerance_pct);
     reflected.most_paths = std::min(options.most_paths, kMostSharedPaths);
-    const ReflectedSharing sharing(sensors,
-                                   sharing_by_distance(sensors, options.share_reflected_m));
+    const ReflectedSharing sharing(
+        sensors, sharing_by_distance(sensors, result.values.sky_view, options.share_reflected_m),
+        rays);
     add_shared_reflection(sharing, rays, source, reflected, progress, result);
-    return;
+    return judge_whole(sensors, budget, result);
   }
   IlluminanceOptions::KnownDirect known;
   for (std::size_t s = 0; s < sensors.size(); ++s) known.lux.push_back(result.values.total_lux(s));
@@ -270,7 +304,7 @@ void add_reflection(const Sensors& sensors, const RayVisibility& rays, const Day
     result.values.error_lux[s] = std::hypot(result.values.error_lux[s], more.values.error_lux[s]);
     result.is_missed[s] |= more.is_missed[s];
   }
-  tell_missed(result);
+  judge_whole(sensors, budget, result);
 }
 
 }  // namespace tenku

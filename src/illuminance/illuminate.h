@@ -39,8 +39,10 @@ struct IlluminanceOptions {
 struct IlluminanceResult {
   SensorIlluminance values;
   std::uint64_t rays = 0;
-  std::vector<std::uint8_t> is_missed;  ///< [sensor], whether the limit of effort came first
-  std::size_t out_of_tolerance = 0;     ///< how many of them
+  /// [sensor], whether it is less exact than the tolerance: its interval is wider, or the limit of
+  /// effort came before the budget was met.
+  std::vector<std::uint8_t> is_missed;
+  std::size_t out_of_tolerance = 0;  ///< how many of them
   std::vector<Finding> findings;
   /// What was planned and what became of it, where the engine was for the plan to choose.
   std::vector<PlannedRegion> regions;
@@ -56,8 +58,12 @@ IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
                              const DaylightSource& source, const IlluminanceOptions& options,
                              Progress& progress);
 
+/// Whether a sensor sees no sky and gets no light.
+bool is_dark(const SensorIlluminance& values, std::size_t sensor);
+
 /// Sensors that nothing reaches although there is light outside.
-void find_dark_sensors(const SensorIlluminance& values, std::vector<Finding>& findings);
+void find_dark_sensors(const Sensors& sensors, const SensorIlluminance& values,
+                       std::vector<Finding>& findings);
 
 /// Counts the sensors out of tolerance, and says so in the findings.
 void tell_missed(IlluminanceResult& result);

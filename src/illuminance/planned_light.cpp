@@ -47,7 +47,8 @@ class PlannedLight {
 
   IlluminanceResult take() {
     tell_missed(result_);
-    if (source_.unobstructed_lux() > 0.0) find_dark_sensors(result_.values, result_.findings);
+    if (source_.unobstructed_lux() > 0.0)
+      find_dark_sensors(sensors_, result_.values, result_.findings);
     return std::move(result_);
   }
 

@@ -32,7 +32,7 @@ struct FieldText {
 
 /// Mesh with values, ready to be written.
 ///
-/// Frame    local east, north, up; the text `origin` says where that is.
+/// Frame    local east, north, up; the texts `origin` and `to_file` lead to the scene file's.
 /// Units    metres; the arrays carry theirs in the name.
 /// Shape    polygon k has the corners polygon_corners[polygon_ends[k - 1] .. polygon_ends[k]).
 ///          Point arrays are [point], cell arrays [polygon]; a mesh without polygons is a cloud of
@@ -42,7 +42,7 @@ struct FieldMesh {
   std::vector<std::uint32_t> polygon_corners, polygon_ends;
   std::vector<FieldValues> point_values, cell_values;
   std::vector<FieldCodes> cell_codes;
-  std::vector<FieldText> texts;  ///< `crs`, `origin`, `time`, `sky`, and the names of codes
+  std::vector<FieldText> texts;  ///< `crs`, `origin`, `sky`, names of codes
 
   void add_polygon(std::span<const std::uint32_t> corners) {
     polygon_corners.insert(polygon_corners.end(), corners.begin(), corners.end());

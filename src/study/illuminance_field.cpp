@@ -29,13 +29,30 @@ void add_light(FieldMesh& mesh, const SensorIlluminance& values, const Pick& sen
   mesh.point_values.push_back(picked("sky_view", values.sky_view, sensor));
 }
 
+std::string text_of(Vec3 v) {
+  return shortest_text(v.x) + " " + shortest_text(v.y) + " " + shortest_text(v.z);
+}
+
+/// What takes a point of the mesh back to the file; a file in degrees has no such matrix.
+void add_way_back(FieldMesh& mesh, const FileFrame& frame) {
+  mesh.texts.push_back({"origin", {text_of(frame.origin())}});
+  if (frame.is_geographic()) return;
+  const Vec3 x = frame.to_file({1, 0, 0}) - frame.origin(),
+             y = frame.to_file({0, 1, 0}) - frame.origin(),
+             z = frame.to_file({0, 0, 1}) - frame.origin();
+  mesh.texts.push_back({"to_file",
+                        {text_of({x.x, y.x, z.x}) + " " + text_of({x.y, y.y, z.y}) + " " +
+                         text_of({x.z, y.z, z.z})}});
+}
+
 void add_place(FieldMesh& mesh, const LitScene& lit) {
-  const Vec3 origin = lit.scene().frame.origin();
   const auto& at = lit.scene().georeference;
   mesh.texts.push_back({"crs", {at ? at->crs : ""}});
-  mesh.texts.push_back(
-      {"origin",
-       {shortest_text(origin.x) + " " + shortest_text(origin.y) + " " + shortest_text(origin.z)}});
+  if (at) {
+    mesh.texts.push_back(
+        {"grid_convergence_deg", {shortest_text(at->grid_convergence.in_degrees())}});
+  }
+  add_way_back(mesh, lit.scene().frame);
   mesh.texts.push_back({"sky", {lit.sky().description}});
 }
 

@@ -9,7 +9,13 @@
 namespace tenku {
 
 /// Point arrays `sun_lux`, `sky_lux`, `reflected_lux`, `total_lux`, `error_lux`, `sky_view`; cell
-/// arrays `surface_type`, `object_id` with their names; field data `crs`, `origin`, `sky`.
+/// arrays `surface_type`, `object_id` with their names; field data `crs`, `grid_convergence_deg`
+/// (true azimuth of grid north, clockwise), `origin`, `to_file`, `sky`.
+///
+/// Frame    local east, north, up. In coordinates of the scene file a point is
+///          origin + to_file * point, with `to_file` nine numbers, row by row: scale, turn and
+///          order of axes in one. Files in degrees have none (FileFrame).
+/// Error    of the way back: 32-bit points, 0.1 mm within 1 km of the origin.
 FieldMesh field_of_grid(const LitScene& lit, const SensorGrid& grid,
                         const SensorIlluminance& values);
 

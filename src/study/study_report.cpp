@@ -84,7 +84,7 @@ std::string ReportBuilder::time_in_words() const {
 void ReportBuilder::add_view(const RenderedView& view, const StudyView& request) {
   rays_ += view.rays;
   regions_.insert(regions_.end(), view.regions.begin(), view.regions.end());
-  notes_.insert(notes_.end(), view.findings.begin(), view.findings.end());
+  for (const Finding& finding : view.findings) add_note(finding);
   if (content_.view) return;  // the first one stands at the head of the report
   const Image8 picture = picture_of(view, request.show);
   content_.view =
@@ -97,7 +97,18 @@ void ReportBuilder::add_light(const IlluminanceResult& result) {
   regions_.insert(regions_.end(), result.regions.begin(), result.regions.end());
   sensors_ += result.values.size();
   out_of_tolerance_ += result.out_of_tolerance;
-  notes_.insert(notes_.end(), result.findings.begin(), result.findings.end());
+  for (const Finding& finding : result.findings) add_note(finding);
+}
+
+void ReportBuilder::add_note(const Finding& finding) {
+  const auto same = std::find_if(notes_.begin(), notes_.end(), [&](const Finding& known) {
+    return known.code == finding.code && known.what == finding.what;
+  });
+  if (same == notes_.end()) {
+    notes_.push_back(finding);
+  } else {
+    same->count += finding.count;
+  }
 }
 
 std::string ReportBuilder::engines_in_words() const {
@@ -113,8 +124,12 @@ void ReportBuilder::note(const std::string& what) {
 void ReportBuilder::add_field(const SensorGrid& grid, const SensorIlluminance& values) {
   std::map<SurfaceType, SurfaceSums> sums;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    SurfaceSums& s = sums[grid.type[i]];
     const double area = grid.area_m2[i], lux = values.total_lux(i);
+    if (is_dark(values, i)) {
+      content_.hidden_area_m2 += area;
+      continue;
+    }
+    SurfaceSums& s = sums[grid.type[i]];
     s.area += area;
     s.lux += area * lux;
     s.error += area * values.error_lux[i];
@@ -204,15 +219,37 @@ std::vector<ReportFigure> ReportBuilder::figures() const {
   figures.push_back({"Open field", lux_text(lit_.source().unobstructed_lux()), "lx", "",
                      "What an unobstructed horizontal surface receives from sun and sky."});
   if (!ground_) return figures;
-  figures.push_back({"Average on the ground", lux_text(ground_->mean), "lx",
+  figures.push_back({"Average on open ground", lux_text(ground_->mean), "lx",
                      fmt::format("± {} lx at a point (95 %)", lux_text(ground_->error)),
-                     "Mean over all open ground between the buildings."});
-  figures.push_back({"Ground in sunlight", fmt::format("{:.0f}", 100.0 * ground_->sunlit_share),
-                     "%", "", "Share of the open ground that the sun reaches at this moment."});
+                     "Mean over all ground that no building covers, as in the plan."});
+  figures.push_back({"Open ground in sunlight",
+                     fmt::format("{:.0f}", 100.0 * ground_->sunlit_share), "%", "",
+                     "Share of the open ground that the sun reaches at this moment."});
   figures.push_back({"Darkest and brightest",
                      lux_text(ground_->lowest) + " – " + lux_text(ground_->highest), "lx", "",
                      "The range over the open ground."});
   return figures;
+}
+
+std::string ReportBuilder::error_statement() const {
+  const double tolerance = study_.calculation.tolerance_percent;
+  const std::string asked = fmt::format(
+      "The tolerance asked for is {} % of each value, or {} lx where that is more. ", tolerance,
+      lux_text(0.01 * tolerance * IlluminanceOptions().floor_share *
+               lit_.source().unobstructed_lux()));
+  const std::string reached =
+      out_of_tolerance_ == 0 ? fmt::format("The interval is within it at all {} points. ", sensors_)
+                             : fmt::format("The interval is wider at {} of {} points ({:.2g} %). ",
+                                           out_of_tolerance_, sensors_,
+                                           100.0 * static_cast<double>(out_of_tolerance_) /
+                                               static_cast<double>(sensors_));
+  return "Every value carries a 95 % interval: the true value of the model as given lies inside it "
+         "for 19 of 20 points. " +
+         asked + (sensors_ > 0 ? reached : "") +
+         "On surfaces and on the plan, neighbouring points share reflected light; what that costs "
+         "is measured at some of them, which are calculated on their own, and is part of the "
+         "interval, and so is an estimate of further reflections. Errors of the model itself, of "
+         "its materials and of the sky are not included.";
 }
 
 std::vector<Finding> ReportBuilder::findings() const {
@@ -244,14 +281,7 @@ ReportContent ReportBuilder::content() const {
   content.method = {"Sunlight comes from the solar disc, so that shadows have soft edges. " +
                     sky_in_words() + " Reflected light follows paths of up to " +
                     std::to_string(study_.calculation.bounces) + " diffuse reflections."};
-  content.error_statement = fmt::format(
-      "Every value carries a 95 % interval: the true value of the model as given lies inside it "
-      "for "
-      "19 of 20 points. Effort was spent until four standard errors were within {} % of each "
-      "value; "
-      "{} of {} points did not get there. Errors of the model itself, of its materials and of the "
-      "sky are not included.",
-      study_.calculation.tolerance_percent, out_of_tolerance_, sensors_);
+  content.error_statement = error_statement();
   const TriangleSoup& soup = lit_.soup();
   content.settings = {{"scene", study_.scene.file.filename().string()},
                       {"triangles", std::to_string(soup.size())},

@@ -51,6 +51,9 @@ class ReportBuilder {
   std::string sky_in_words() const;
   std::vector<ReportFigure> figures() const;
   std::string engines_in_words() const;
+  std::string error_statement() const;
+  /// Those of one kind from several calculations are one entry, with the place of the first.
+  void add_note(const Finding& finding);
 
   const Study& study_;
   const LitScene& lit_;

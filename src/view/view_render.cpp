@@ -170,7 +170,8 @@ RenderedView render_view(const ViewRequest& request, const Engines& engines,
     IlluminanceOptions options = options_of(request);
     options.bounces = request.bounces;
     // Some twenty representatives are blended in a pixel.
-    const ReflectedSharing sharing(points.sensors, sharing_by_pixels(points, work.camera));
+    const ReflectedSharing sharing(points.sensors, sharing_by_pixels(points, work.camera),
+                                   engines.rays());
     add_shared_reflection(sharing, engines.rays(), source, options, progress, light);
   }
   RenderedView result;
@@ -194,9 +195,9 @@ ViewPlan plan_view(const ViewRequest& request, const Engines& engines, const Day
   }
   if (request.bounces == 0 || work.points.sensors.size() == 0) return plan;
   options.bounces = request.bounces;
-  const ReflectedSharing sharing(work.points.sensors, sharing_by_pixels(work.points, work.camera));
-  std::vector<std::uint32_t> few(sharing.representatives().begin(),
-                                 sharing.representatives().end());
+  const ReflectedSharing sharing(work.points.sensors, sharing_by_pixels(work.points, work.camera),
+                                 engines.rays());
+  std::vector<std::uint32_t> few(sharing.calculated().begin(), sharing.calculated().end());
   plan.reflection_s =
       predicted_reflection_s(sensors_of(work.points.sensors, few), engines.rays(), source, options);
   return plan;

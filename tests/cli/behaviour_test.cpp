@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "cli/lit_scene_files.h"
+#include "core/units.h"
 #include "core/version.h"
+#include "output/field_writer.h"
 #include "support/reference_table.h"
 #include "support/run_program.h"
 
@@ -222,6 +224,68 @@ TEST(Contract, AStudyWithEveryTableWritesEveryOutput) {
   }
   EXPECT_EQ(contents_of(folder / "results/points.csv").substr(0, kColumns.size()), kColumns);
   EXPECT_EQ(json::parse(run.out)["files"].size(), 9u);
+}
+
+// Two tables with a sensor in the box each, and in the second one too near to it for the tolerance.
+TEST(Contract, AReportTellsEachFindingOnceAndHowManyPointsAreLessExact) {
+  const fs::path folder = test_folder();
+  write_box_scene(folder);
+  write_text(folder / "dark.pts", "10 10 0 0 0 1\n0 0.5 0.25 0 0 1\n");
+  write_text(folder / "near.pts", "1.2 0.1 0 1 0 1\n0 0.5 0.25 0 0 1\n");
+  write_text(folder / "s.toml",
+             "[scene]\nfile = \"box.obj\"\nup = \"z\"\n[calculation]\ntolerance_percent = 1e-7\n"
+             "bounces = 0\n[[sensors]]\nname = \"a\"\nfile = \"dark.pts\"\n"
+             "[[sensors]]\nname = \"b\"\nfile = \"near.pts\"\n[report]\n"
+             "[sun]\naltitude_deg = 40\nazimuth_deg = 180\nilluminance_lx = 0\n");
+  const auto run = run_tenku("run s.toml --out results --json", folder);
+  EXPECT_EQ(run.exit_code, 3) << run.err;
+  const std::string report = contents_of(folder / "results/report.html");
+  const std::string dark = "sensors see no sky";
+  const auto first = report.find(dark);
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_EQ(report.find(dark, first + 1), std::string::npos);
+  EXPECT_NE(report.find("sensor 2, 0.0 m east, 0.5 m north, 0.2 m up"), std::string::npos)
+      << report.substr(first, 400);
+  const auto missed = json::parse(run.out)["out_of_tolerance"].get<int>();
+  EXPECT_NE(report.find("wider at " + std::to_string(missed) + " of 4 points"), std::string::npos);
+}
+
+// The grid of EPSG:6680 is turned by a degree and more at its rim.
+TEST(Contract, AFieldLeadsBackToTheCoordinatesOfTheFile) {
+  const fs::path folder = test_folder();
+  write_text(folder / "far.obj",
+             "v -73300 -104100 5\nv -73200 -104100 5\nv -73200 -104000 5\nv -73300 -104000 5\n"
+             "f 1 2 3 4\n");
+  write_text(folder / "far.pts", "-73290.5 -104090.25 6 0 0 1\n-73210.125 -104001 30.5 0 0 1\n");
+  const auto run = run_tenku(
+      "illuminance far.obj --up z --crs EPSG:6680 --sensors far.pts --bounces 0 --out o.vtp" + kSky,
+      folder);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const FieldMesh mesh = read_vtp(folder / "o.vtp");
+  const auto numbers = [&](const std::string& name) {
+    std::vector<double> values;
+    for (const FieldText& text : mesh.texts) {
+      std::istringstream words(text.name == name ? text.values.at(0) : "");
+      for (double value; words >> value;) values.push_back(value);
+    }
+    return values;
+  };
+  const auto origin = numbers("origin"), m = numbers("to_file"),
+             turn = numbers("grid_convergence_deg");
+  ASSERT_EQ(origin.size(), 3u);
+  ASSERT_EQ(m.size(), 9u);
+  ASSERT_EQ(turn.size(), 1u);
+  EXPECT_GT(std::abs(turn[0]), 0.5);
+  // To turn back by the convergence is the same, but for the scale of the projection.
+  EXPECT_NEAR(std::atan2(m[3], m[0]) * 180.0 / kPi, turn[0], 1e-6);
+  const double in_file[2][3] = {{-73290.5, -104090.25, 6.0}, {-73210.125, -104001.0, 30.5}};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Vec3 p = mesh.points.at(i);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR(origin[k] + m[3 * k] * p.x + m[3 * k + 1] * p.y + m[3 * k + 2] * p.z,
+                  in_file[i][k], 1e-3);
+    }
+  }
 }
 
 struct Interrupted {

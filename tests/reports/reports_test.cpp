@@ -181,6 +181,54 @@ TEST(SunPath, ProjectionsPlaceTheAltitudes) {
               1.0 / 3.0, 1e-12);
 }
 
+/// Where a text of an SVG picture is drawn.
+struct DrawnText {
+  double x, y;
+};
+
+DrawnText drawn(const std::string& svg, const std::string& text) {
+  const auto end = svg.find(">" + text + "</text>");
+  EXPECT_NE(end, std::string::npos) << text;
+  const std::string tag = svg.substr(svg.rfind('<', end), end - svg.rfind('<', end));
+  const auto number = [&](const std::string& name) {
+    return std::stod(tag.substr(tag.find(" " + name + "=\"") + name.size() + 3));
+  };
+  return {number("x"), number("y")};
+}
+
+// At the equinox the sun rises in the east, where the letter stands.
+TEST(SunPath, KeepsTheLettersOfTheCompassClearOfTheDays) {
+  SunPathDiagram d;
+  d.days = {{"21 Sep",
+             {{Angle::degrees(90.0), Angle::degrees(0.3)},
+              {Angle::degrees(180.0), Angle::degrees(47.0)},
+              {Angle::degrees(270.0), Angle::degrees(0.3)}}}};
+  const std::string svg = sun_path_svg(d);
+  const DrawnText day = drawn(svg, "21 Sep"), east = drawn(svg, "E");
+  // Six letters of 12 units, none wider than high; E, 17 units, is drawn about its middle.
+  EXPECT_GT(east.x - 8.5, day.x + 6 * 0.6 * 12.0);
+  EXPECT_LT(east.x + 8.5, 700.0);
+}
+
+TEST(SunPath, KeepsTheHoursClearOfTheSun) {
+  SunPathDiagram d;
+  d.instant = DiagramPoint{Angle::degrees(127.0), Angle::degrees(62.0)};
+  d.hours = {{"10", {*d.instant}}};
+  const std::string svg = sun_path_svg(d);
+  const auto disc = svg.find("class=\"sun\" cx=\"");
+  const double x = std::stod(svg.substr(disc + 16));
+  const double y = std::stod(svg.substr(svg.find("cy=\"", disc) + 4));
+  const DrawnText hour = drawn(svg, "10");  // 12 units high, its baseline 4.5 below its middle
+  EXPECT_GT(std::hypot(hour.x - x, hour.y - 4.5 - y), 9.0 + 6.0);
+}
+
+TEST(SunPath, NamesItsProjection) {
+  SunPathDiagram d;
+  EXPECT_NE(sun_path_svg(d).find("stereographic projection"), std::string::npos);
+  d.projection = SunPathProjection::Equidistant;
+  EXPECT_NE(sun_path_svg(d).find("equidistant projection"), std::string::npos);
+}
+
 TEST(SunPath, DrawsOnlyWhatIsAboveTheHorizonAndEscapesLabels) {
   const auto deg = [](double v) { return Angle::degrees(v); };
   SunPathDiagram d;
