@@ -39,6 +39,7 @@ constexpr std::size_t kTrials = 4;  // elements that tell the time
 constexpr std::size_t kFewestElements = 24, kMostElements = 4096;
 constexpr double kMoreElements = 1.4142135623730951;
 constexpr double kDark = 0.05;         // of the unobstructed light
+constexpr double kNearShare = 0.5;     // of that, for the near half; the far one has what is left
 constexpr double kPictureShare = 0.3;  // of the tolerance, for the mean error of a picture
 constexpr double kPartOfReach = 0.1;   // of the tolerance, for casters that are left out
 constexpr double kLeastScale = 5e-4;   // of the unobstructed light: what no outline tells
@@ -132,7 +133,7 @@ class RegionPlanner {
     choose_pilots(work);
     const bool may_rays = method_.engine != EngineChoice::ShadowMaps;
     const bool may_maps = method_.engine != EngineChoice::Rays;
-    const bool is_timed = method_.is_predicted || (may_rays && may_maps) || is_picture();
+    const bool is_timed = method_.is_predicted || (may_rays && (may_maps || is_picture()));
     const bool may_be_apart = may_rays && method_.detail == Detail::Budget;
     if (may_be_apart || (method_.is_predicted && method_.detail == Detail::Budget)) {
       time_rays(sensors_of(here, work.pilots.sensor), told);
@@ -288,8 +289,8 @@ class RegionPlanner {
     }
     work.told.predicted_error_lux = intervals / count;
     if (is_picture()) {
-      return missed / count <=
-             kPictureShare * method_.picture_tolerance_pct / 100.0 * source_.unobstructed_lux();
+      return missed / count <= kPictureShare * work.weight * method_.picture_tolerance_pct / 100.0 *
+                                   source_.unobstructed_lux();
     }
     return static_cast<double>(good) >= kConfidence * count;
   }
@@ -439,6 +440,8 @@ std::vector<RegionWork> plan_light(const Sensors& sensors, const Engines& engine
     progress.stop_if_cancelled();
     RegionWork work;
     work.sensor = std::move(part);
+    // What is near shows, and its maps are small.
+    if (parts.size() > 1 && method.eye) work.weight = plan.empty() ? kNearShare : 2.0 - kNearShare;
     planner.plan(work);
     plan.push_back(std::move(work));
     progress.advance(1);

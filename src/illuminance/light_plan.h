@@ -69,6 +69,7 @@ struct RegionWork {
   std::vector<std::uint32_t> sensor;  ///< places among all sensors
   Pilots pilots;
   PartitionRequest partition;
+  double weight = 1.0;  ///< of the error that a picture may have here; their mean is 1
 };
 
 /// Regions of the sensors, and for each what to do.
