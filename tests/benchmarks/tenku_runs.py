@@ -47,9 +47,9 @@ def tell_refusal(name, reason):
 
 
 def plan_seconds(summary, key):
-    """Sum of `measured_s` or `predicted_s` over the regions of the plan; None without a plan."""
-    plan = summary.get("plan")
-    return sum(region[key] for region in plan) if plan else None
+    """Sum of `measured_s` or `predicted_s` over the regions of the plan; None where one has none."""
+    seconds = [region[key] for region in summary.get("plan") or []]
+    return sum(seconds) if seconds and None not in seconds else None
 
 
 def number(value, form):
