@@ -22,8 +22,7 @@ constexpr std::size_t kGrain = 16;      // sensors a task
 constexpr double kSureOfDark = 512.0;   // slices times tolerance after which no sky is believed
 constexpr int kMostSharedPaths = 2048;  // more would know one place better than those around it
 constexpr double kDark_lux = 0.01;      // a moonless night, and what is left of rounding
-constexpr double kBlended =
-    2.5;  // errors of about nine blended representatives in one of their mean
+constexpr double kBlended = 4.0;        // errors of blended representatives in one of their mean
 
 void check_options(const IlluminanceOptions& options) {
   if (!(options.tolerance_pct > 0.0 && options.tolerance_pct <= 100.0)) {

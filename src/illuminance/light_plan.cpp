@@ -36,7 +36,7 @@ constexpr std::size_t kMostRegions = 64;
 constexpr std::size_t kTrials = 4;  // elements that tell the time
 
 // Elements.
-constexpr std::size_t kFewestElements = 24, kMostElements = 4096;
+constexpr std::size_t kFewestElements = 33, kMostElements = 4096;
 constexpr double kMoreElements = 1.4142135623730951;
 constexpr double kDark = 0.05;         // of the unobstructed light
 constexpr double kNearShare = 0.5;     // of that, for the near half; the far one has what is left

@@ -12,6 +12,7 @@
 #include "study/ground_plan.h"
 #include "study/illuminance_field.h"
 #include "study/lit_scene.h"
+#include "study/stage_clock.h"
 #include "study/study_report.h"
 #include "study/study_sky.h"
 #include "study/view_output.h"
@@ -158,7 +159,7 @@ class StudyRun {
     }
     if (study_.report) write_whole_file(place("report.html"), report_html(report_.content()));
     const fs::path manifest = place("manifest.json");
-    write_manifest(manifest, report_.manifest(outcome_.files));
+    write_manifest(manifest, report_.manifest(outcome_.files, progress_.stages()));
     outcome_.findings = report_.findings();
     return outcome_;
   }
@@ -181,7 +182,7 @@ class StudyRun {
 
   const Study& study_;
   fs::path folder_;
-  Progress& progress_;
+  StageClock progress_;
   StudyMoment moment_;
   LitScene lit_;
   ReportBuilder report_;

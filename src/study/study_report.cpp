@@ -117,6 +117,28 @@ std::string ReportBuilder::engines_in_words() const {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+std::vector<ReportFact> ReportBuilder::regions_in_words() const {
+  std::vector<ReportFact> facts;
+  for (const PlannedRegion& r : regions_) {
+    if (!r.is_shared) continue;
+    std::string text = fmt::format("{} points by {} in {} directions", r.sensors, name_of(r.engine),
+                                   r.elements + r.sun_directions);
+    if (r.engine == Engine::ShadowMaps) {
+      text +=
+          fmt::format(", maps of {} x {} with texels of {:.2g} m", r.texels, r.texels, r.texel_m);
+    }
+    if (std::isfinite(r.reach_m)) {
+      text += fmt::format("; casters farther than {:.0f} m could take {:.0f} lx", r.reach_m,
+                          r.left_out_lux);
+    }
+    if (std::isfinite(r.predicted_s())) {
+      text += fmt::format("; {:.2g} s expected, {:.2g} s taken", r.predicted_s(), r.measured_s);
+    }
+    facts.push_back({"direct light, region " + std::to_string(facts.size() + 1), text});
+  }
+  return facts;
+}
+
 void ReportBuilder::note(const std::string& what) {
   notes_.push_back({"study_note", Severity::Note, "", "", what, "", 1});
 }
@@ -291,12 +313,16 @@ ReportContent ReportBuilder::content() const {
                       {"seed", std::to_string(study_.calculation.seed)},
                       {"engine", engines_in_words()},
                       {"rays", std::to_string(rays_)}};
+  const std::vector<ReportFact> regions = regions_in_words();
+  content.settings.insert(content.settings.end(), regions.begin(), regions.end());
   content.versions = {{"software", std::string(software_name())}};
   return content;
 }
 
-Manifest ReportBuilder::manifest(const std::vector<std::filesystem::path>& files) const {
+Manifest ReportBuilder::manifest(const std::vector<std::filesystem::path>& files,
+                                 const std::vector<ManifestStage>& stages) const {
   Manifest manifest;
+  manifest.stages = stages;
   manifest.command = "tenku run " + study_.file.string();
   manifest.inputs.push_back(manifest_input(study_.file));
   manifest.inputs.push_back(manifest_input(study_.scene.file));

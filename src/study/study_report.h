@@ -39,7 +39,8 @@ class ReportBuilder {
   std::string sun_path() const;
 
   ReportContent content() const;
-  Manifest manifest(const std::vector<std::filesystem::path>& files) const;
+  Manifest manifest(const std::vector<std::filesystem::path>& files,
+                    const std::vector<ManifestStage>& stages) const;
   std::vector<Finding> findings() const;
 
  private:
@@ -51,6 +52,7 @@ class ReportBuilder {
   std::string sky_in_words() const;
   std::vector<ReportFigure> figures() const;
   std::string engines_in_words() const;
+  std::vector<ReportFact> regions_in_words() const;
   std::string error_statement() const;
   /// Those of one kind from several calculations are one entry, with the place of the first.
   void add_note(const Finding& finding);
