@@ -59,10 +59,7 @@ int illuminance(const IlluminanceCommandOptions& options, const CommandContext& 
   const auto start = std::chrono::steady_clock::now();
   const LitScene lit = load_lit_scene(options.lit, context.progress);
   const PlacedSensors placed = place_sensors(options.sensors, lit);
-  IlluminanceOptions how;
-  how.tolerance_pct = options.lit.tolerance_pct;
-  how.bounces = options.lit.bounces;
-  how.seed = context.options.seed;
+  const IlluminanceOptions how = illuminance_options(options.lit, context.options);
   const IlluminanceResult result = illuminate(placed.sensors, lit.engines(), lit.source(), how,
                                               light_method(options.lit), context.progress);
   write_result(options, lit, placed, result);

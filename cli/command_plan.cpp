@@ -24,10 +24,7 @@ struct PlanOptions {
 ViewPlan plan_sensors(const PlanOptions& options, const LitScene& lit,
                       const CommandContext& context) {
   const Sensors sensors = place_sensors(options.sensors, lit).sensors;
-  IlluminanceOptions how;
-  how.tolerance_pct = options.lit.tolerance_pct;
-  how.bounces = options.lit.bounces;
-  how.seed = context.options.seed;
+  const IlluminanceOptions how = illuminance_options(options.lit, context.options);
   LightMethod method = light_method(options.lit);
   method.is_predicted = true;
   ViewPlan plan;
@@ -41,12 +38,7 @@ ViewPlan plan_sensors(const PlanOptions& options, const LitScene& lit,
 
 ViewPlan plan_picture(const PlanOptions& options, const LitScene& lit,
                       const CommandContext& context) {
-  ViewRequest request;
-  request.view = resolve_view(options.view, lit);
-  request.tolerance_pct = options.lit.tolerance_pct;
-  request.bounces = options.lit.bounces;
-  request.seed = context.options.seed;
-  request.method = light_method(options.lit);
+  const ViewRequest request = view_request(options.view, options.lit, lit, context.options);
   return plan_view(request, lit.engines(), lit.source(), context.progress);
 }
 

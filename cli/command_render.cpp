@@ -27,12 +27,7 @@ int render(const RenderOptions& options, const CommandContext& context) {
   check_view_options(options.view);
   const auto start = std::chrono::steady_clock::now();
   const LitScene lit = load_lit_scene(options.lit, context.progress);
-  ViewRequest request;
-  request.view = resolve_view(options.view, lit);
-  request.tolerance_pct = options.lit.tolerance_pct;
-  request.bounces = options.lit.bounces;
-  request.seed = context.options.seed;
-  request.method = light_method(options.lit);
+  const ViewRequest request = view_request(options.view, options.lit, lit, context.options);
   const RenderedView view =
       render_view(request, lit.engines(), lit.source(), lit.sky().model.get(), context.progress);
   write_view(options.lit.out, view, kind,

@@ -20,6 +20,15 @@ LightMethod light_method(const LitSceneOptions& options) {
   return method;
 }
 
+IlluminanceOptions illuminance_options(const LitSceneOptions& options,
+                                       const CommonOptions& common) {
+  IlluminanceOptions how;
+  how.tolerance_pct = options.tolerance_pct;
+  how.bounces = options.bounces;
+  how.seed = common.seed;
+  return how;
+}
+
 void add_lit_scene_options(CLI::App& app, LitSceneOptions& options) {
   add_scene_options(app, options.scene);
   add_site_options(app, options.site);

@@ -40,6 +40,8 @@ LitScene load_lit_scene(const LitSceneOptions& options, Progress& progress);
 /// @throws InputError for names that are not known
 LightMethod light_method(const LitSceneOptions& options);
 
+IlluminanceOptions illuminance_options(const LitSceneOptions& options, const CommonOptions& common);
+
 /// What a calculation came to.
 struct CalculationSummary {
   std::chrono::steady_clock::time_point start;

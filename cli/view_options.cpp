@@ -59,8 +59,10 @@ void add_view_options(CLI::App& app, ViewOptions& options) {
   app.add_option("--size", options.size, "pixels, WIDTHxHEIGHT (default 512x512)");
 }
 
-PerspectiveView resolve_view(const ViewOptions& options, const LitScene& lit) {
-  PerspectiveView view;
+ViewRequest view_request(const ViewOptions& options, const LitSceneOptions& how,
+                         const LitScene& lit, const CommonOptions& common) {
+  ViewRequest request;
+  PerspectiveView& view = request.view;
   std::tie(view.width, view.height) = size_of(options.size);
   view.horizontal_fov = Angle::degrees(options.fov_deg);
   if (options.eye.empty()) {
@@ -69,7 +71,11 @@ PerspectiveView resolve_view(const ViewOptions& options, const LitScene& lit) {
     view.eye = lit.scene().frame.to_local(point_of(options.eye, "--eye"));
     view.target = lit.scene().frame.to_local(point_of(options.target, "--target"));
   }
-  return view;
+  request.tolerance_pct = how.tolerance_pct;
+  request.bounces = how.bounces;
+  request.seed = common.seed;
+  request.method = light_method(how);
+  return request;
 }
 
 }  // namespace tenku

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "study/lit_scene.h"
-#include "view/camera.h"
+#include "cli/lit_scene_options.h"
+#include "view/view_render.h"
 
 namespace CLI {
 class App;
@@ -24,8 +24,9 @@ void add_view_options(CLI::App& app, ViewOptions& options);
 /// @throws InputError
 void check_view_options(const ViewOptions& options);
 
-/// The view in the local frame; an overview where no eye is given.
+/// The view in the local frame, an overview where no eye is given, and how it is lit.
 /// @throws InputError
-PerspectiveView resolve_view(const ViewOptions& options, const LitScene& lit);
+ViewRequest view_request(const ViewOptions& options, const LitSceneOptions& how,
+                         const LitScene& lit, const CommonOptions& common);
 
 }  // namespace tenku
