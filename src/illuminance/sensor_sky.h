@@ -152,7 +152,8 @@ class SensorSky {
   SampleRandom random_;
   Effort effort_;
   SliceTracer tracer_;
-  double start_ = 0.0;
+  double start_ = 0.0, check_start_ = 0.0;
+  int checked_ = 0;
   std::vector<Entry> entry_;      ///< in the order of their azimuths
   std::vector<SeenPiece> piece_;  ///< of the last slice
   Lesson lesson_;

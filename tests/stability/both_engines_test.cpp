@@ -325,5 +325,30 @@ TEST(BothEngines, OneTriangleOfTenKilometresHidesItsPartOfTheSky) {
   expect_both_right("triangles of 10 km", lit_by_both(scene, sensors, Daylight().source), truth);
 }
 
+// A roof over a street, 100 m deep and 40 m up, seen from 50 to 90 m beside it: light passes below
+// and above, so that slices of the sky know of it by their checks alone. It hides 5 % of the sky.
+TEST(BothEngines, WhatFloatsBetweenHorizonAndZenithIsMet) {
+  constexpr double kHeight = 40.0, kDepth = 100.0;
+  TestScene scene;
+  scene.level({-100, -100, 0, 100}, 0.0);
+  scene.quad({0, -9000, kHeight}, {kDepth, -9000, kHeight}, {kDepth, 9000, kHeight},
+             {0, 9000, kHeight});
+  const Sensors sensors = level_row(600, [](double t) {
+    return Vec3{-50.0 - 40.0 * t, 50.0 * std::sin(50.0 * t), 0.0};
+  });
+  std::vector<double> truth;
+  for (const Vec3& p : sensors.position) {
+    const auto sine = [&](double away) { return away / std::hypot(away, kHeight); };
+    truth.push_back(kSky_lux * (1.0 - 0.5 * (sine(kDepth - p.x) - sine(-p.x))));
+  }
+  const Lit lit = lit_by_both(scene, sensors, Daylight().source);
+  for (const auto* values : {&lit.rays.values, &lit.maps.values}) {
+    const Miss miss = miss_of(*values, truth);
+    print(values == &lit.rays.values ? "a floating roof, rays" : "a floating roof, shadow maps",
+          miss);
+    EXPECT_GE(miss.coverage.pct(), 93.0);  // 95 % less twice the scatter of 600 values
+  }
+}
+
 }  // namespace
 }  // namespace tenku
