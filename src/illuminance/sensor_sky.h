@@ -43,7 +43,7 @@ namespace tenku {
 ///            measured in towns: 0.3 to 0.5), with a third of that as error, the less the
 ///            fewer tests have failed;
 ///          tables: kTable of the value;
-///          checks: rays at random altitudes measure what the slices missed.
+///          checks: rays at altitudes spread evenly measure what the slices missed.
 class SensorSky {
  public:
   static constexpr int kFirstSlices = 17;
