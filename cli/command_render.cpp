@@ -9,6 +9,7 @@
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "study/view_output.h"
+#include "view/eye_inside.h"
 #include "view/view_render.h"
 
 namespace tenku {
@@ -28,8 +29,11 @@ int render(const RenderOptions& options, const CommandContext& context) {
   const auto start = std::chrono::steady_clock::now();
   const LitScene lit = load_lit_scene(options.lit, context.progress);
   const ViewRequest request = view_request(options.view, options.lit, lit, context.options);
-  const RenderedView view =
+  RenderedView view =
       render_view(request, lit.engines(), lit.source(), lit.sky().model.get(), context.progress);
+  if (auto inside = eye_inside(request.view.eye, lit.scene(), lit.rays())) {
+    view.findings.push_back(std::move(*inside));
+  }
   write_view(options.lit.out, view, kind,
              {.title = options.lit.scene.scene, .time = options.lit.site.time, .units = {}});
   return close_calculation(context.options, lit,

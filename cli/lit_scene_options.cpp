@@ -10,6 +10,7 @@
 
 #include "cli/plan_output.h"
 #include "core/error.h"
+#include "illuminance/wide_texels.h"
 
 namespace tenku {
 LightMethod light_method(const LitSceneOptions& options) {
@@ -75,6 +76,9 @@ int close_calculation(const CommonOptions& options, const LitScene& lit,
   std::vector<Finding> findings = lit.scene().findings;
   for (const auto* more : {&lit.sky().diagnostics, &summary.findings}) {
     findings.insert(findings.end(), more->begin(), more->end());
+  }
+  if (auto wide = wide_texels(summary.regions, lit.scene().frame)) {
+    findings.push_back(std::move(*wide));
   }
   say_findings(options, findings);
   if (is_worth_telling(summary.regions)) say(options, table_of(summary.regions));

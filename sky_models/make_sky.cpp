@@ -166,6 +166,21 @@ void set_sun(Sky& sky, const SkyRequest& request) {
   if (!request.sun || sun_is_up(request)) sky.sun.normal_illuminance = *request.sun_illuminance;
 }
 
+void tell_grazing_sun(Sky& sky) {
+  constexpr Angle kGrazing = Angle::degrees(2.0);
+  const Angle altitude = altitude_of(sky.sun.direction);
+  if (!(sky.sun.normal_illuminance > Illuminance(0.0)) || !(altitude < kGrazing)) return;
+  sky.diagnostics.push_back(
+      {"grazing_sun", Severity::Warning, "",
+       fmt::format("sun at azimuth {:.2f}, altitude {:.2f} degrees",
+                   azimuth_of(sky.sun.direction).in_degrees(), altitude.in_degrees()),
+       fmt::format("the sun is so low that shadows are {:.0f} times as long as what throws them is "
+                   "high: a centimetre of height moves their ends by that many centimetres, and "
+                   "what stands outside of the scene would shade it",
+                   1.0 / std::tan(altitude.in_radians())),
+       "give a scene that reaches as far toward the sun, or a time with a higher sun"});
+}
+
 }  // namespace
 
 Sky make_sky(const SkyRequest& request) {
@@ -196,6 +211,7 @@ Sky make_sky(const SkyRequest& request) {
       break;
   }
   set_sun(sky, request);
+  tell_grazing_sun(sky);
   sky.description =
       fmt::format("{}, {:.0f} lx diffuse horizontal, sun {:.0f} lx normal", request.model,
                   sky.horizontal_diffuse_lux, sky.sun.normal_illuminance.value());

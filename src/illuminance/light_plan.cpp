@@ -213,8 +213,11 @@ class RegionPlanner {
 
   void choose_maps(RegionWork& work, const Sensors& here) const {
     PlannedRegion& told = work.told;
-    const double side = longest(box_of(here, all_of(here.size())));
+    const Extent box = box_of(here, all_of(here.size()));
+    const double side = longest(box);
     const double texel = texel_of(options_.tolerance_pct);
+    told.middle = box.middle();
+    told.wanted_texel_m = texel;
     told.texels = kUsualTexels;
     if (method_.detail == Detail::Budget) {
       told.texels = kLeastTexels;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <string>
 
+#include "core/vec3.h"
+
 namespace tenku {
 
 /// Who finds the direct light of a region.
@@ -24,12 +26,14 @@ struct PlannedRegion {
   Engine engine = Engine::Rays;
   std::string why;
   std::size_t sensors = 0;
+  Vec3 middle{};  ///< of the sensors, local frame
   /// Whether all sensors look in the same directions, one in each element; otherwise each has its
   /// own way (SensorSky, ElementSky). Maps are always shared.
   bool is_shared = false;
   std::size_t elements = 0, sun_directions = 0;
   int texels = 0;  ///< along a side of a map
   double texel_m = 0.0;
+  double wanted_texel_m = 0.0;                               ///< by the tolerance
   double reach_m = std::numeric_limits<double>::infinity();  ///< farther casters are left out
   double left_out_lux = 0.0;  ///< what they could add, at 95 % of the pilots at most
   /// Predicted: rays for each sensor by itself, rays in shared directions, maps.

@@ -6,8 +6,9 @@
 namespace tenku {
 namespace {
 
-constexpr int kRareCheck = 4;           // one slice in so many is checked while all goes well
-constexpr int kDenseChecks = 4;         // rays a checked slice, where the checks dominate the error
+constexpr int kRareCheck = 4;  // of the later slices one in so many is checked while all goes well
+constexpr int kDenseChecks = 4;  // rays a checked slice, where the checks dominate the error
+constexpr double kGolden = 0.6180339887498949;
 constexpr int kMostAgain = 3;           // times that all slices are traced again
 constexpr double kSameAltitude = 1e-3;  // radians
 
@@ -37,7 +38,8 @@ SensorSky::SensorSky(const RayVisibility& rays, const SkyTable* table, Vec3 posi
       random_(random),
       effort_(effort),
       tracer_(rays, sight_.origin),
-      start_(2.0 * kPi * random_.uniform()) {}
+      start_(2.0 * kPi * random_.uniform()),
+      check_start_(random_.uniform()) {}
 
 SensorSky::SensorSky(const RayVisibility& rays, const SkyTable* table, Vec3 position, Vec3 normal,
                      SampleRandom random)
@@ -67,11 +69,13 @@ void SensorSky::double_evenly() {
   const std::size_t old = entry_.size();
   const std::size_t count = old == 0 ? static_cast<std::size_t>(effort_.first_slices) : 2 * old;
   const double pitch = 2.0 * kPi / static_cast<double>(count);
-  const bool all_well = old > 0 && !unchecked_ && checks_.lux_squared == 0.0 && checks_.view == 0.0;
+  // The first slices and those between them are all checked: fewer would miss what floats.
+  const bool is_rare = old > static_cast<std::size_t>(effort_.first_slices) && !unchecked_ &&
+                       checks_.lux_squared == 0.0 && checks_.view == 0.0;
   const int checks = checks_.lux_squared > 0.5 * variance_ ? kDenseChecks : 1;
   // All slices stand for half as much azimuth as before, and so do their checks.
   checks_ = {0.5 * checks_.lux, 0.5 * checks_.view, 0.25 * checks_.lux_squared};
-  const double stands_for = pitch * (unchecked_ ? 2.0 : 1.0) * (all_well ? kRareCheck : 1);
+  const double stands_for = pitch * (unchecked_ ? 2.0 : 1.0) * (is_rare ? kRareCheck : 1);
   std::vector<Entry> refined(count);
   for (std::size_t i = 0; i < count; ++i) {
     if (old > 0 && i % 2 == 0) {
@@ -80,7 +84,7 @@ void SensorSky::double_evenly() {
     }
     const double azimuth =
         start_ + pitch * static_cast<double>(i) + kScatter * (random_.uniform() - 0.5);
-    const bool checked = effort_.checked && (!all_well || (i / 2) % kRareCheck == 0);
+    const bool checked = effort_.checked && (!is_rare || (i / 2) % kRareCheck == 0);
     refined[i].slice = make_slice(azimuth, checked ? checks : 0, stands_for);
   }
   entry_ = std::move(refined);
@@ -266,7 +270,10 @@ void SensorSky::check(const SliceLight& light, int checks, double weight) {
   LuxAndView sum;
   for (int k = 0; k < checks; ++k) {
     // A row of the table in proportion to its light, then any altitude in it alike.
-    const double wanted = whole * (k + random_.uniform()) / checks;
+    // Golden steps from a random start: with the azimuths they cover the sky evenly, so that what
+    // floats is met by one of few checks if it is as large as what a check stands for.
+    const double turns = check_start_ + kGolden * checked_++;
+    const double wanted = whole * (k + turns - std::floor(turns)) / checks;
     const auto [a, b] = light.row_reaching(wanted, low, high);
     const double altitude = a + (b - a) * random_.uniform();
     const double chance = light.measure(a, b) / whole;

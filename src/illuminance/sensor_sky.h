@@ -43,7 +43,7 @@ namespace tenku {
 ///            measured in towns: 0.3 to 0.5), with a third of that as error, the less the
 ///            fewer tests have failed;
 ///          tables: kTable of the value;
-///          checks: rays at random altitudes measure what the slices missed.
+///          checks: rays at altitudes spread evenly measure what the slices missed.
 class SensorSky {
  public:
   static constexpr int kFirstSlices = 17;
@@ -152,7 +152,8 @@ class SensorSky {
   SampleRandom random_;
   Effort effort_;
   SliceTracer tracer_;
-  double start_ = 0.0;
+  double start_ = 0.0, check_start_ = 0.0;
+  int checked_ = 0;
   std::vector<Entry> entry_;      ///< in the order of their azimuths
   std::vector<SeenPiece> piece_;  ///< of the last slice
   Lesson lesson_;

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "scene/cityjson_reader.h"
+#include "scene/geometry_checks.h"
 #include "scene/ground_plane.h"
 #include "scene/input_file.h"
 #include "scene/materials.h"
@@ -107,6 +108,7 @@ Scene read_scene(const fs::path& path, const ReadOptions& options, Progress& pro
   mark_buildings(raw);
   repair(raw, progress);
   refuse_empty(raw, path, " that have an area");
+  check_geometry(raw);
   add_ground(raw, options.ground);
   assign_materials(raw, named);
   raw.scene.findings = raw.findings.take();

@@ -5,6 +5,7 @@
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "illuminance/planned_light.h"
+#include "illuminance/wide_texels.h"
 #include "output/field_writer.h"
 #include "output/sensor_file.h"
 #include "output/table_writer.h"
@@ -16,6 +17,7 @@
 #include "study/study_report.h"
 #include "study/study_sky.h"
 #include "study/view_output.h"
+#include "view/eye_inside.h"
 #include "view/view_render.h"
 
 namespace tenku {
@@ -74,6 +76,10 @@ ViewRequest view_request_of(const StudyView& view, const Study& study, const Lit
   return request;
 }
 
+void add(std::optional<Finding> finding, std::vector<Finding>& findings) {
+  if (finding) findings.push_back(std::move(*finding));
+}
+
 /// Each step of a study: what it makes goes into a file and into the report.
 class StudyRun {
  public:
@@ -91,8 +97,11 @@ class StudyRun {
         report_(study, lit_, moment_) {}
 
   void render(const StudyView& view) {
-    const RenderedView picture = render_view(view_request_of(view, study_, lit_), lit_.engines(),
-                                             lit_.source(), lit_.sky().model.get(), progress_);
+    const ViewRequest request = view_request_of(view, study_, lit_);
+    RenderedView picture =
+        render_view(request, lit_.engines(), lit_.source(), lit_.sky().model.get(), progress_);
+    add(eye_inside(request.view.eye, lit_.scene(), lit_.rays()), picture.findings);
+    add(wide_texels(picture.regions, lit_.scene().frame), picture.findings);
     for (const std::string& format : view.formats) {
       write_view(place(view.name + "." + format), picture, view.show,
                  {.title = report_.title(), .time = report_.time_text(), .units = {}});
@@ -170,6 +179,7 @@ class StudyRun {
     options.share_reflected_m = share_reflected_m;
     IlluminanceResult result = illuminate(sensors, lit_.engines(), lit_.source(), options,
                                           method_of(study_.calculation), progress_);
+    add(wide_texels(result.regions, lit_.scene().frame), result.findings);
     outcome_.out_of_tolerance += result.out_of_tolerance;
     report_.add_light(result);
     return result;

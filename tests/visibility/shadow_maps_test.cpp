@@ -5,12 +5,11 @@
 
 #include "core/error.h"
 #include "core/random.h"
-#include "visibility/engine_comparison.h"
+#include "support/engine_comparison.h"
 
 namespace tenku {
 namespace {
 
-using testing_support::compare_engines;
 using testing_support::even_directions;
 using testing_support::TestScene;
 
@@ -58,13 +57,8 @@ void expect_alike(const TestScene& scene, const std::string& name, std::size_t s
                   int texels) {
   const RayVisibility rays(scene.soup, scene.materials);
   const ShadowMaps maps(scene.soup, scene.materials, software(texels));
-  const auto found =
-      compare_engines(rays, maps, on_surfaces(scene, rays.lift_m(), sensors), even_directions(145));
-  testing_support::print(name + ", " + std::to_string(texels) + " texels", found);
-  EXPECT_LE(found.mean, 0.005) << name;
-  // Errors at outlines go either way: no systematic light or shadow beyond a fifth of the above.
-  EXPECT_LE(std::abs(found.signed_mean), 0.001) << name;
-  EXPECT_EQ(found.worst_explained, found.worst_pairs) << name;
+  testing_support::expect_engines_alike(name + ", " + std::to_string(texels) + " texels", rays, maps,
+                                        on_surfaces(scene, rays.lift_m(), sensors), 145);
 }
 
 TEST(ShadowMaps, ABoxOnAPlaneIsLitAsByRays) {

@@ -1,6 +1,8 @@
 /// The two engines on the same points and directions, and where they differ.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -121,6 +123,19 @@ inline void print(const std::string& what, const EngineDifference& d) {
       "within two texels of an outline\n",
       what.c_str(), 100 * d.mean, 100 * d.signed_mean, 100 * d.worst_sensor, 100 * d.pair_mean,
       d.worst_explained, d.worst_pairs, d.pairs);
+}
+
+/// Prints how the engines differ, and fails beyond what maps are allowed.
+inline EngineDifference expect_engines_alike(const std::string& what, const RayVisibility& rays,
+                                             const ShadowMaps& maps, const Sensors& sensors,
+                                             int directions) {
+  const EngineDifference found = compare_engines(rays, maps, sensors, even_directions(directions));
+  print(what, found);
+  EXPECT_LE(found.mean, 0.005) << what;
+  // Errors at outlines go either way: no systematic light or shadow beyond a fifth of the above.
+  EXPECT_LE(std::abs(found.signed_mean), 0.001) << what;
+  EXPECT_EQ(found.worst_explained, found.worst_pairs) << what;
+  return found;
 }
 
 }  // namespace tenku::testing_support

@@ -1,0 +1,223 @@
+#include "scene/geometry_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/random.h"
+
+namespace tenku {
+namespace {
+
+std::string place_in_file(const Scene& scene, Vec3 local) {
+  const Vec3 at = scene.frame.to_file(local);
+  const int digits = scene.frame.is_geographic() ? 7 : 2;
+  return fmt::format("{:.{}f} {:.{}f} {:.2f}", at.x, digits, at.y, digits, at.z);
+}
+
+/// Vertices of all rings of a surface.
+std::span<const std::uint32_t> vertices_of(const Surfaces& surfaces, std::size_t s) {
+  const std::uint32_t first = surfaces.first_vertex[surfaces.first_ring[s]];
+  const std::uint32_t end = surfaces.first_vertex[surfaces.first_ring[s + 1]];
+  return {surfaces.vertex.data() + first, end - first};
+}
+
+double largest_coordinate(Vec3 p) {
+  return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+}
+
+template <class Value>
+Value median_of(std::vector<Value> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Coincident faces.
+
+bool have_same_vertices(const Surfaces& surfaces, std::size_t a, std::size_t b) {
+  const auto sorted = [&](std::size_t s) {
+    const auto all = vertices_of(surfaces, s);
+    std::vector<std::uint32_t> made(all.begin(), all.end());
+    std::sort(made.begin(), made.end());
+    return made;
+  };
+  return sorted(a) == sorted(b);
+}
+
+void tell_coincident_faces(RawScene& raw) {
+  const Scene& scene = raw.scene;
+  const Surfaces& surfaces = scene.surfaces;
+  std::vector<std::pair<std::uint64_t, std::size_t>> keys;
+  keys.reserve(surfaces.size());
+  for (std::size_t s = 0; s < surfaces.size(); ++s) {
+    std::uint64_t sum = 0;  // the same in whatever order the vertices come
+    for (const std::uint32_t v : vertices_of(surfaces, s)) sum += mix_bits(v + 1ULL);
+    keys.emplace_back(sum, s);
+  }
+  std::sort(keys.begin(), keys.end());
+  std::size_t count = 0, first = surfaces.size(), other = 0;
+  for (std::size_t k = 0, group = 0; k < keys.size(); ++k) {
+    if (keys[k].first != keys[group].first) group = k;
+    const std::size_t here = keys[group].second, again = keys[k].second;
+    if (surfaces.object[here] == surfaces.object[again]) continue;
+    if (!have_same_vertices(surfaces, here, again)) continue;
+    ++count;
+    if (here < first) first = here, other = again;
+  }
+  if (count == 0) return;
+  raw.findings.add({"coincident_faces", Severity::Note, raw.object_of(first),
+                    place_in_file(scene, scene.vertices[surfaces.outer_ring(first)[0]]),
+                    fmt::format("faces lie where another object has the same face (first: [{}])",
+                                raw.object_of(other)),
+                    "both are kept and shade as one; a sensor between them sees nothing", count});
+}
+
+// Far parts.
+
+Vec3 median_vertex(const std::vector<Vec3>& vertices) {
+  std::vector<double> x, y, z;
+  for (const Vec3& v : vertices) x.push_back(v.x), y.push_back(v.y), z.push_back(v.z);
+  return {median_of(std::move(x)), median_of(std::move(y)), median_of(std::move(z))};
+}
+
+void tell_far_parts(RawScene& raw) {
+  constexpr double kExact_m = 16384.0;  // floats lie 1 mm apart up to here
+  constexpr double kFar_m = 100'000.0;  // no sight is longer
+  constexpr double kCoarse_m = 0.01;
+  constexpr double kLift = 4.0 * 0x1.0p-24;  // of the largest coordinate, as RayVisibility does
+  const Scene& scene = raw.scene;
+  double reach = 0.0;
+  for (const Vec3& v : scene.vertices) reach = std::max(reach, largest_coordinate(v));
+  if (!(reach > kExact_m)) return;
+  const Vec3 middle = median_vertex(scene.vertices);
+  double farthest = -1.0;
+  std::size_t surface = 0, count = 0;
+  Vec3 place{};
+  for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
+    bool is_far = false;
+    for (const std::uint32_t v : vertices_of(scene.surfaces, s)) {
+      is_far = is_far || largest_coordinate(scene.vertices[v]) > kExact_m;
+      const double away = length(scene.vertices[v] - middle);
+      if (away <= farthest) continue;
+      farthest = away, surface = s, place = scene.vertices[v];
+    }
+    count += is_far ? 1 : 0;
+  }
+  const auto as_float = static_cast<float>(reach);
+  const double step = std::nextafter(as_float, std::numeric_limits<float>::infinity()) - as_float;
+  const bool is_apart = farthest > kFar_m;
+  raw.findings.add(
+      {"far_from_origin", is_apart || step > kCoarse_m ? Severity::Warning : Severity::Note,
+       raw.object_of(surface), place_in_file(scene, place),
+       fmt::format("faces lie up to {:.0f} km from the local origin, where the ray engine's "
+                   "positions lie {:.3g} mm apart, and all sensors stand {:.3g} mm off their "
+                   "surfaces; this object reaches {:.0f} km from the middle of the scene",
+                   reach / 1000.0, 1000.0 * step, 1000.0 * kLift * reach, farthest / 1000.0),
+       is_apart ? "take what is far off out of the scene, or calculate it apart"
+                : "details finer than that are lost; read the scene in parts to keep them",
+       std::max<std::size_t>(1, count)});
+}
+
+// Flat buildings.
+
+std::uint32_t root_of(const Scene& scene, std::uint32_t object) {
+  for (std::size_t step = 0; step < scene.objects.size(); ++step) {
+    if (scene.objects[object].parent == kNone) break;
+    object = scene.objects[object].parent;
+  }
+  return object;
+}
+
+void tell_flat_buildings(RawScene& raw) {
+  constexpr double kFlat_m = 0.01;
+  const Scene& scene = raw.scene;
+  const Surfaces& surfaces = scene.surfaces;
+  struct Heights {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    std::size_t first = 0;
+    bool is_building = false;
+  };
+  std::vector<Heights> heights(scene.objects.size());
+  // In OBJ all that has no other name is a building; grounds and roads by name are typed so.
+  const bool by_type = scene.format == "OBJ";
+  for (std::size_t s = 0; s < surfaces.size(); ++s) {
+    if (raw.is_building[surfaces.object[s]] == 0) continue;
+    Heights& h = heights[root_of(scene, surfaces.object[s])];
+    if (h.high < h.low) h.first = s;
+    h.is_building |= !by_type || surfaces.type[s] == SurfaceType::Roof;
+    for (const std::uint32_t v : vertices_of(surfaces, s)) {
+      h.low = std::min(h.low, scene.vertices[v].z);
+      h.high = std::max(h.high, scene.vertices[v].z);
+    }
+  }
+  Finding flat{"flat_city",
+               Severity::Warning,
+               "",
+               "",
+               "buildings have no height: they shade nothing",
+               "give the file with heights, or choose a level of detail that has them; they lie "
+               "flat as they are",
+               0};
+  for (const Heights& h : heights) {
+    if (!h.is_building || h.high - h.low > kFlat_m) continue;
+    if (flat.count++ > 0) continue;
+    flat.object = raw.object_of(h.first);
+    flat.where = place_in_file(scene, scene.vertices[surfaces.outer_ring(h.first)[0]]);
+  }
+  if (flat.count > 0) raw.findings.add(flat);
+}
+
+// Huge triangles.
+
+double longest_edge(const Scene& scene, std::size_t s) {
+  double longest = 0.0;
+  const auto ring = scene.surfaces.outer_ring(s);
+  std::uint32_t from = ring.back();
+  for (const std::uint32_t to : ring) {
+    longest = std::max(longest, length(scene.vertices[to] - scene.vertices[from]));
+    from = to;
+  }
+  return longest;
+}
+
+void tell_huge_triangles(RawScene& raw) {
+  constexpr double kHuge_m = 5000.0, kTimesUsual = 100.0;
+  const Scene& scene = raw.scene;
+  std::vector<std::pair<double, std::size_t>> huge;
+  std::vector<double> usual;
+  for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
+    const double edge = longest_edge(scene, s);
+    if (edge > kHuge_m) huge.emplace_back(edge, s);
+    if (edge <= kHuge_m) usual.push_back(edge);
+  }
+  if (huge.empty() || usual.empty()) return;
+  const double median = median_of(std::move(usual));
+  std::erase_if(huge, [&](const auto& one) { return one.first <= kTimesUsual * median; });
+  if (huge.empty()) return;
+  const auto [edge, s] = huge.front();
+  raw.findings.add(
+      {"huge_triangle", Severity::Note, raw.object_of(s),
+       place_in_file(scene, scene.vertices[scene.surfaces.outer_ring(s)[0]]),
+       fmt::format("faces have edges beyond 5 km (here {:.1f} km), where the others have {:.3g} m",
+                   edge / 1000.0, median),
+       "taken as they are; rounding moves all sensors a quarter of a millimetre off their surfaces "
+       "for each kilometre: cut such faces where the rest ends",
+       huge.size()});
+}
+
+}  // namespace
+
+void check_geometry(RawScene& raw) {
+  tell_coincident_faces(raw);
+  tell_far_parts(raw);
+  tell_flat_buildings(raw);
+  tell_huge_triangles(raw);
+}
+
+}  // namespace tenku
