@@ -33,7 +33,7 @@ constexpr double kTexelPerPercent_m = 0.35;  // of tolerance
 constexpr double kFinestTexel_m = 0.1, kCoarsestTexel_m = 8.0;
 constexpr int kLeastTexels = 128, kMostTexels = 2048, kUsualTexels = 1024;
 constexpr std::size_t kMostRegions = 64;
-constexpr std::size_t kTrials = 4;  // elements that tell the time
+constexpr std::size_t kFewTrials = 2, kMoreTrials = 10;  // elements that tell the time
 
 // Elements.
 constexpr std::size_t kFewestElements = 33, kMostElements = 4096;
@@ -333,26 +333,28 @@ class RegionPlanner {
     }
   }
 
-  /// Clock time of one direction for all sensors by one engine, from that of a few.
+  /// Clock time of one more direction for all sensors by one engine, from that of a few.
   double seconds_a_direction(Engine engine, const Sensors& here, const PlannedRegion& told) const {
     if (source_.model == nullptr) return 0.0;
-    PartitionRequest request;
-    request.method = PartitionMethod::Uniform;
-    request.elements = kTrials;
-    const SharedElements trial(partition_sky(*source_.model, request), source_.sky.get());
     const Sensors at = lifted(here, engines_.rays().lift_m());
-    Progress quiet;
-    const auto seconds = [&](const Visibility& asked) {
-      Sensors few;  // the contexts take the triangles: that is not to be timed
-      few.position.push_back(at.position.front());
-      few.normal.push_back(at.normal.front());
-      trial.light(asked, few, quiet);
+    if (engine == Engine::Rays) return slope_s(engines_.rays(), at);
+    return slope_s(engines_.maps().with(told.texels, told.reach_m), at);
+  }
+
+  double slope_s(const Visibility& asked, const Sensors& at) const {
+    const auto seconds = [&](std::size_t elements) {
+      PartitionRequest request;
+      request.method = PartitionMethod::Uniform;
+      request.elements = elements;
+      const SharedElements trial(partition_sky(*source_.model, request), source_.sky.get());
+      Progress quiet;
       const auto start = Clock::now();
       trial.light(asked, at, quiet);
-      return seconds_since(start) / static_cast<double>(trial.size());
+      return seconds_since(start);
     };
-    if (engine == Engine::Rays) return seconds(engines_.rays());
-    return seconds(engines_.maps().with(told.texels, told.reach_m));
+    const double few = seconds(kFewTrials);  // contexts take the triangles, memory is touched
+    const double again = std::min(few, seconds(kFewTrials)), more = seconds(kMoreTrials);
+    return std::max(0.1 * more, more - again) / static_cast<double>(kMoreTrials - kFewTrials);
   }
 
   static double mean(const std::vector<double>& values) {
