@@ -25,7 +25,9 @@ constexpr double kConfidence = 0.95;
 constexpr double kFinerPilots = 4.0;       // times the tolerance of what they are to judge
 constexpr double kFinestPilots = 0.1;      // percent
 constexpr std::size_t kFewSensors = 5000;  // are lit before a plan is made
-constexpr double kSoon_s = 2.0;            // not worth a plan
+// A plan is only made where what it may save is more than what it takes: by rays for each sensor.
+constexpr double kSoon_s = 10.0, kSoonPicture_s = 1.0;
+constexpr double kWorthMaps_s = 20.0;  // by rays; to try maps takes some seconds in software
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 // Maps.
@@ -132,13 +134,14 @@ class RegionPlanner {
     const Sensors here = sensors_of(sensors_, work.sensor);
     choose_pilots(work);
     const bool may_rays = method_.engine != EngineChoice::ShadowMaps;
-    const bool may_maps = method_.engine != EngineChoice::Rays;
-    const bool is_timed = method_.is_predicted || (may_rays && (may_maps || is_picture()));
+    bool may_maps = method_.engine != EngineChoice::Rays;
+    const bool may_choose = may_rays && may_maps;
+    const bool is_timed = method_.is_predicted || may_choose || (may_rays && is_picture());
     const bool may_be_apart = may_rays && method_.detail == Detail::Budget;
     if (may_be_apart || (method_.is_predicted && method_.detail == Detail::Budget)) {
       time_rays(sensors_of(here, work.pilots.sensor), told);
       told.elements = source_.element_count();
-      if (!method_.is_predicted && told.rays_s < kSoon_s) {
+      if (!method_.is_predicted && told.rays_s < (is_picture() ? kSoonPicture_s : kSoon_s)) {
         told.why = "done soon";
         return;
       }
@@ -149,6 +152,10 @@ class RegionPlanner {
     choose_maps(shared, here);
     double ray_s = kNever, map_s = kNever;  // a direction
     if (is_timed && may_rays) ray_s = seconds_a_direction(Engine::Rays, here, other);
+    if (may_choose && !method_.is_predicted) {
+      const double all = may_be_apart ? told.rays_s : ray_s * static_cast<double>(elements_asked());
+      may_maps = all > kWorthMaps_s;
+    }
     if (is_timed && may_maps) map_s = seconds_a_direction(Engine::ShadowMaps, here, other);
     const double worth = may_be_apart ? told.rays_s / std::min(ray_s, map_s) : kNever;
     const bool is_enough = choose_elements(shared, sensors_of(here, work.pilots.sensor), worth);
@@ -162,10 +169,15 @@ class RegionPlanner {
     const double best = maps_win ? other.maps_s : other.shared_s;
     if (!may_be_apart || (is_enough && best < told.rays_s)) work = shared;
     if (work.told.is_shared && maps_win) work.told.engine = Engine::ShadowMaps;
-    work.told.why = may_rays && may_maps ? "sooner done" : "asked for";
+    work.told.why = may_choose ? "sooner done" : "asked for";
   }
 
  private:
+  /// By hand, or about as many as most tolerances need.
+  std::size_t elements_asked() const {
+    constexpr std::size_t kUsual = 512;
+    return source_.elements ? source_.elements->size() : kUsual;
+  }
   bool is_picture() const { return method_.picture_tolerance_pct > 0.0; }
   static double maps_of(const PlannedRegion& told) {
     return static_cast<double>(told.elements + told.sun_directions);
