@@ -22,9 +22,9 @@ namespace {
 
 constexpr std::size_t kPilots = 200;  // a region
 constexpr double kConfidence = 0.95;
-constexpr double kFinerPilots = 4.0;       // times the tolerance of what they are to judge
-constexpr double kFinestPilots = 0.1;      // percent
-constexpr std::size_t kFewSensors = 5000;  // are lit before a plan is made
+constexpr double kFinerPilots = 4.0;        // times the tolerance of what they are to judge
+constexpr double kFinestPilots = 0.1;       // percent
+constexpr std::size_t kFewSensors = 20000;  // are lit before a plan is made
 // A plan is only made where what it may save is more than what it takes: by rays for each sensor.
 constexpr double kSoon_s = 10.0, kSoonPicture_s = 1.0;
 constexpr double kWorthMaps_s = 20.0;  // by rays; to try maps takes some seconds in software
