@@ -326,7 +326,7 @@ TEST(BothEngines, OneTriangleOfTenKilometresHidesItsPartOfTheSky) {
 }
 
 // A roof over a street, 100 m deep and 40 m up, seen from 50 to 90 m beside it: light passes below
-// and above, so that slices of the sky know of it by their checks alone. It hides 3 to 9 % of the sky.
+// and above, so that slices of the sky know of it by their checks alone. It hides 3 to 9 % of it.
 TEST(BothEngines, WhatFloatsBetweenHorizonAndZenithIsMet) {
   constexpr double kHeight = 40.0, kDepth = 100.0;
   TestScene scene;
