@@ -57,8 +57,8 @@ void expect_alike(const TestScene& scene, const std::string& name, std::size_t s
                   int texels) {
   const RayVisibility rays(scene.soup, scene.materials);
   const ShadowMaps maps(scene.soup, scene.materials, software(texels));
-  testing_support::expect_engines_alike(name + ", " + std::to_string(texels) + " texels", rays, maps,
-                                        on_surfaces(scene, rays.lift_m(), sensors), 145);
+  testing_support::expect_engines_alike(name + ", " + std::to_string(texels) + " texels", rays,
+                                        maps, on_surfaces(scene, rays.lift_m(), sensors), 145);
 }
 
 TEST(ShadowMaps, ABoxOnAPlaneIsLitAsByRays) {
