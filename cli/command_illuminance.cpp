@@ -48,12 +48,6 @@ void write_result(const IlluminanceCommandOptions& options, const LitScene& lit,
   write_vtp(options.lit.out, mesh);
 }
 
-double mean_error(const SensorIlluminance& values) {
-  double sum = 0.0;
-  for (const double error : values.error_lux) sum += error;
-  return values.size() > 0 ? sum / static_cast<double>(values.size()) : 0.0;
-}
-
 int illuminance(const IlluminanceCommandOptions& options, const CommandContext& context) {
   check_request(options);
   const auto start = std::chrono::steady_clock::now();
@@ -69,7 +63,7 @@ int illuminance(const IlluminanceCommandOptions& options, const CommandContext& 
                             .counted = "sensors",
                             .count = placed.sensors.size(),
                             .out_of_tolerance = result.out_of_tolerance,
-                            .error_mean = mean_error(result.values),
+                            .error_mean = result.values.mean_error_lux(),
                             .regions = result.regions,
                             .findings = result.findings});
 }

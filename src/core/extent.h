@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 #include "core/vec3.h"
 
@@ -20,6 +21,14 @@ struct Extent {
   }
   Vec3 middle() const { return 0.5 * (min + max); }
   Vec3 size() const { return max - min; }
+  double longest_side() const { return std::max({size().x, size().y, size().z}); }
 };
+
+/// Box about points.
+inline Extent extent_of(std::span<const Vec3> points) {
+  Extent box;
+  for (const Vec3& p : points) box.add(p);
+  return box;
+}
 
 }  // namespace tenku

@@ -256,11 +256,9 @@ IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
 void add_shared_reflection(const ReflectedSharing& sharing, const RayVisibility& rays,
                            const DaylightSource& source, const IlluminanceOptions& options,
                            Progress& progress, IlluminanceResult& result) {
-  Sensors few;
+  const Sensors few = sensors_of(sharing.sensors(), sharing.calculated());
   IlluminanceOptions::KnownDirect known;
-  for (const std::size_t s : sharing.calculated()) {
-    few.position.push_back(sharing.sensors().position[s]);
-    few.normal.push_back(sharing.sensors().normal[s]);
+  for (const std::uint32_t s : sharing.calculated()) {
     // Without sunlight: the sensor may stand for others in the shade beside it.
     known.lux.push_back(result.values.sky_lux[s]);
     known.sky_view.push_back(result.values.sky_view[s]);

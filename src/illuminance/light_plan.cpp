@@ -1,27 +1,24 @@
 #include "illuminance/light_plan.h"
 
 #include <algorithm>
-#include <array>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
 
-#include "core/error.h"
 #include "core/extent.h"
 #include "core/parallel.h"
 #include "core/random.h"
-#include "core/suggest.h"
+#include "core/stopwatch.h"
 #include "illuminance/error_budget.h"
-#include "illuminance/shared_elements.h"
+#include "illuminance/sensor_regions.h"
+#include "illuminance/shared_light.h"
 
 namespace tenku {
 namespace {
 
-constexpr std::size_t kPilots = 200;  // a region
-constexpr double kConfidence = 0.95;
+constexpr std::size_t kPilots = 200;        // a region
 constexpr double kFinerPilots = 4.0;        // times the tolerance of what they are to judge
 constexpr double kFinestPilots = 0.1;       // percent
 constexpr std::size_t kFewSensors = 20000;  // are lit before a plan is made
@@ -34,7 +31,6 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kTexelPerPercent_m = 0.35;  // of tolerance
 constexpr double kFinestTexel_m = 0.1, kCoarsestTexel_m = 8.0;
 constexpr int kLeastTexels = 128, kMostTexels = 2048, kUsualTexels = 1024;
-constexpr std::size_t kMostRegions = 64;
 constexpr std::size_t kFewTrials = 2, kMoreTrials = 10;  // elements that tell the time
 
 // Elements.
@@ -44,74 +40,9 @@ constexpr double kDark = 0.05;         // of the unobstructed light
 constexpr double kNearShare = 0.5;     // of that, for the near half; the far one has what is left
 constexpr double kPictureShare = 0.3;  // of the tolerance, for the mean error of a picture
 constexpr double kPartOfReach = 0.1;   // of the tolerance, for casters that are left out
-constexpr double kLeastScale = 5e-4;   // of the unobstructed light: what no outline tells
-constexpr double kUnmet = 0.5;         // of an element: what may hide part of it and no other
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-std::vector<std::uint32_t> all_of(std::size_t count) {
-  std::vector<std::uint32_t> all(count);
-  std::iota(all.begin(), all.end(), 0U);
-  return all;
-}
-
-Extent box_of(const Sensors& sensors, const std::vector<std::uint32_t>& chosen) {
-  Extent box;
-  for (const std::uint32_t s : chosen) box.add(sensors.position[s]);
-  return box;
-}
-
-double longest(const Extent& box) {
-  const Vec3 size = box.size();
-  return std::max({size.x, size.y, size.z});
-}
 
 double texel_of(double tolerance_pct) {
   return std::clamp(kTexelPerPercent_m * tolerance_pct, kFinestTexel_m, kCoarsestTexel_m);
-}
-
-using Parts = std::vector<std::vector<std::uint32_t>>;
-
-/// Halves the longest part across its longer side until all parts fit under a map.
-Parts split_by_extent(const Sensors& sensors, double most_m) {
-  Parts parts{all_of(sensors.size())};
-  while (parts.size() < kMostRegions) {
-    const auto widest =
-        std::max_element(parts.begin(), parts.end(), [&](const auto& a, const auto& b) {
-          return longest(box_of(sensors, a)) < longest(box_of(sensors, b));
-        });
-    const Extent box = box_of(sensors, *widest);
-    if (!(longest(box) > most_m)) break;
-    const bool by_x = box.size().x >= box.size().y;
-    const auto place = [&](std::uint32_t s) {
-      return by_x ? sensors.position[s].x : sensors.position[s].y;
-    };
-    const double middle = by_x ? box.middle().x : box.middle().y;
-    const auto cut = std::stable_partition(widest->begin(), widest->end(),
-                                           [&](std::uint32_t s) { return place(s) < middle; });
-    if (cut == widest->begin() || cut == widest->end()) break;  // one above the other
-    std::vector<std::uint32_t> rest(cut, widest->end());
-    widest->erase(cut, widest->end());
-    parts.push_back(std::move(rest));
-  }
-  return parts;
-}
-
-/// A near and a far half, as seen from the eye.
-Parts split_by_distance(const Sensors& sensors, Vec3 eye) {
-  std::vector<std::uint32_t> order = all_of(sensors.size());
-  const auto away = [&](std::uint32_t s) { return length(sensors.position[s] - eye); };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return away(a) < away(b); });
-  const auto half = order.begin() + static_cast<std::ptrdiff_t>(order.size() / 2);
-  Parts parts{{order.begin(), half}, {half, order.end()}};
-  for (auto& part : parts) std::sort(part.begin(), part.end());
-  std::erase_if(parts, [](const auto& part) { return part.empty(); });
-  return parts;
 }
 
 std::size_t directions_on_sun(const DaylightSource& source, double tolerance_pct) {
@@ -133,13 +64,14 @@ class RegionPlanner {
     told.sensors = work.sensor.size();
     const Sensors here = sensors_of(sensors_, work.sensor);
     choose_pilots(work);
+    const Sensors pilots = sensors_of(here, work.pilots.sensor);
     const bool may_rays = method_.engine != EngineChoice::ShadowMaps;
     bool may_maps = method_.engine != EngineChoice::Rays;
     const bool may_choose = may_rays && may_maps;
     const bool is_timed = method_.is_predicted || may_choose || (may_rays && is_picture());
     const bool may_be_apart = may_rays && method_.detail == Detail::Budget;
     if (may_be_apart || (method_.is_predicted && method_.detail == Detail::Budget)) {
-      time_rays(sensors_of(here, work.pilots.sensor), told);
+      time_rays(pilots, told);
       told.elements = source_.element_count();
       if (!method_.is_predicted && told.rays_s < (is_picture() ? kSoonPicture_s : kSoon_s)) {
         told.why = "done soon";
@@ -150,17 +82,18 @@ class RegionPlanner {
     PlannedRegion& other = shared.told;
     other.is_shared = true;
     choose_maps(shared, here);
+    const Sensors at = lifted(here, engines_.rays().lift_m());
     double ray_s = kNever, map_s = kNever;  // a direction
-    if (is_timed && may_rays) ray_s = seconds_a_direction(Engine::Rays, here, other);
+    if (is_timed && may_rays) ray_s = seconds_a_direction(Engine::Rays, at, other);
     if (may_choose && !method_.is_predicted) {
       const double all = may_be_apart ? told.rays_s : ray_s * static_cast<double>(elements_asked());
       may_maps = all > kWorthMaps_s;
     }
-    if (is_timed && may_maps) map_s = seconds_a_direction(Engine::ShadowMaps, here, other);
+    if (is_timed && may_maps) map_s = seconds_a_direction(Engine::ShadowMaps, at, other);
     const double worth = may_be_apart ? told.rays_s / std::min(ray_s, map_s) : kNever;
-    const bool is_enough = choose_elements(shared, sensors_of(here, work.pilots.sensor), worth);
+    const bool is_enough = choose_elements(shared, pilots, worth);
     if (is_enough && std::isfinite(map_s) && std::isfinite(other.reach_m)) {
-      map_s = seconds_a_direction(Engine::ShadowMaps, here, other);
+      map_s = seconds_a_direction(Engine::ShadowMaps, at, other);
     }
     if (is_enough && is_timed && may_rays) other.shared_s = ray_s * maps_of(other);
     if (is_enough && is_timed && may_maps) other.maps_s = map_s * maps_of(other);
@@ -204,12 +137,12 @@ class RegionPlanner {
 
   void time_rays(const Sensors& pilots, PlannedRegion& told) const {
     Progress quiet;
-    const auto start = Clock::now();
+    const Stopwatch watch;
     const IlluminanceResult result =
         illuminate(pilots, engines_.rays(), source_, direct_options(), quiet);
-    told.rays_s = seconds_since(start) * static_cast<double>(told.sensors) /
-                  static_cast<double>(pilots.size());
-    told.predicted_error_lux = mean(result.values.error_lux);
+    told.rays_s =
+        watch.seconds() * static_cast<double>(told.sensors) / static_cast<double>(pilots.size());
+    told.predicted_error_lux = result.values.mean_error_lux();
   }
 
   void judge_pilots(RegionWork& work, const Sensors& pilots) const {
@@ -225,8 +158,8 @@ class RegionPlanner {
 
   void choose_maps(RegionWork& work, const Sensors& here) const {
     PlannedRegion& told = work.told;
-    const Extent box = box_of(here, all_of(here.size()));
-    const double side = longest(box);
+    const Extent box = extent_of(here.position);
+    const double side = box.longest_side();
     const double texel = texel_of(options_.tolerance_pct);
     told.middle = box.middle();
     told.wanted_texel_m = texel;
@@ -258,9 +191,9 @@ class RegionPlanner {
       const SkyPartition partition = partition_sky(*source_.model, work.partition);
       told.elements = partition.elements.size();
       Progress quiet;
-      const SharedLight light =
-          shared_light(engines_.rays(), engines_.rays(), at, source_, partition,
-                       static_cast<int>(told.sun_directions), quiet);
+      const SharedLight light = shared_light(engines_.rays(), engines_.rays(), at, source_,
+                                             SharedElements(partition, source_.sky.get()),
+                                             static_cast<int>(told.sun_directions), quiet);
       const bool is_enough = is_good_enough(work, light);
       if (!is_enough && count < most) continue;
       if (method_.detail == Detail::Budget) choose_reach(at, partition, work);
@@ -307,7 +240,7 @@ class RegionPlanner {
       return missed / count <= kPictureShare * work.weight * method_.picture_tolerance_pct / 100.0 *
                                    source_.unobstructed_lux();
     }
-    return static_cast<double>(good) >= kConfidence * count;
+    return static_cast<double>(good) >= Pilots::kConfidence * count;
   }
 
   /// How far casters matter: what the elements behind farther ones would add is within a small part
@@ -338,17 +271,16 @@ class RegionPlanner {
         lost.push_back(loss[k][r]);
         share.push_back(loss[k][r] / budget.allowed_lux(work.pilots.lux[k]));
       }
-      if (quantile(share, kConfidence) > 1.0) continue;
+      if (quantile(share, Pilots::kConfidence) > 1.0) continue;
       work.told.reach_m = reach[r];
-      work.told.left_out_lux = quantile(lost, kConfidence);
+      work.told.left_out_lux = quantile(lost, Pilots::kConfidence);
       return;
     }
   }
 
   /// Clock time of one more direction for all sensors by one engine, from that of a few.
-  double seconds_a_direction(Engine engine, const Sensors& here, const PlannedRegion& told) const {
+  double seconds_a_direction(Engine engine, const Sensors& at, const PlannedRegion& told) const {
     if (source_.model == nullptr) return 0.0;
-    const Sensors at = lifted(here, engines_.rays().lift_m());
     if (engine == Engine::Rays) return slope_s(engines_.rays(), at);
     return slope_s(engines_.maps().with(told.texels, told.reach_m), at);
   }
@@ -360,19 +292,15 @@ class RegionPlanner {
       request.elements = elements;
       const SharedElements trial(partition_sky(*source_.model, request), source_.sky.get());
       Progress quiet;
-      const auto start = Clock::now();
+      const Stopwatch watch;
       trial.light(asked, at, quiet);
-      return seconds_since(start);
+      return watch.seconds();
     };
     const double few = seconds(kFewTrials);  // contexts take the triangles, memory is touched
     const double again = std::min(few, seconds(kFewTrials)), more = seconds(kMoreTrials);
     return std::max(0.1 * more, more - again) / static_cast<double>(kMoreTrials - kFewTrials);
   }
 
-  static double mean(const std::vector<double>& values) {
-    return std::accumulate(values.begin(), values.end(), 0.0) /
-           static_cast<double>(std::max<std::size_t>(1, values.size()));
-  }
   static double quantile(std::vector<double> values, double share) {
     std::sort(values.begin(), values.end());
     const auto last = static_cast<double>(values.size() - 1);
@@ -393,46 +321,7 @@ Parts parts_of(const Sensors& sensors, const IlluminanceOptions& options,
   return split_by_extent(sensors, kMostTexels * texel_of(options.tolerance_pct));
 }
 
-/// The value beside a name.
-template <class Value, std::size_t count>
-Value named(std::string_view name, const std::array<std::pair<std::string_view, Value>, count>& all,
-            const char* what) {
-  std::vector<std::string_view> known;
-  for (const auto& [one, value] : all) {
-    if (one == name) return value;
-    known.push_back(one);
-  }
-  throw InputError("there is no " + std::string(what) + " '" + std::string(name) + "'" +
-                   suggestion(name, known));
-}
-
 }  // namespace
-
-EngineChoice engine_named(std::string_view name) {
-  static constexpr std::array<std::pair<std::string_view, EngineChoice>, 3> kAll{
-      {{"auto", EngineChoice::Auto},
-       {"rays", EngineChoice::Rays},
-       {"shadow-maps", EngineChoice::ShadowMaps}}};
-  return named(name, kAll, "engine");
-}
-
-Detail detail_named(std::string_view name) {
-  static constexpr std::array<std::pair<std::string_view, Detail>, 3> kAll{
-      {{"off", Detail::Off}, {"paper", Detail::Paper}, {"budget", Detail::Budget}}};
-  return named(name, kAll, "level of detail");
-}
-
-double Pilots::interval_per_scale(const std::vector<double>& value,
-                                  const std::vector<double>& scale) const {
-  std::vector<double> ratio;
-  for (std::size_t k = 0; k < value.size(); ++k) {
-    ratio.push_back(std::abs(value[k] - lux[k]) / scale[k]);
-  }
-  if (ratio.empty()) return 0.0;
-  std::sort(ratio.begin(), ratio.end());
-  const double rank = std::ceil(kConfidence * static_cast<double>(ratio.size() + 1));
-  return ratio[std::min(ratio.size(), static_cast<std::size_t>(rank)) - 1];
-}
 
 std::vector<RegionWork> plan_light(const Sensors& sensors, const Engines& engines,
                                    const DaylightSource& source, const IlluminanceOptions& options,
@@ -465,55 +354,6 @@ std::vector<RegionWork> plan_light(const Sensors& sensors, const Engines& engine
   }
   progress.end(std::to_string(plan.size()) + (plan.size() == 1 ? " region" : " regions"));
   return plan;
-}
-
-Sensors sensors_of(const Sensors& all, const std::vector<std::uint32_t>& chosen) {
-  Sensors some;
-  some.position.reserve(chosen.size());
-  some.normal.reserve(chosen.size());
-  for (const std::uint32_t s : chosen) {
-    some.position.push_back(all.position[s]);
-    some.normal.push_back(all.normal[s]);
-  }
-  return some;
-}
-
-Sensors lifted(Sensors sensors, double lift_m) {
-  for (std::size_t s = 0; s < sensors.size(); ++s) {
-    sensors.position[s] = sensors.position[s] + lift_m * sensors.normal[s];
-  }
-  return sensors;
-}
-
-SharedLight shared_light(const Visibility& sky_engine, const Visibility& sun_engine,
-                         const Sensors& at, const DaylightSource& source,
-                         const SkyPartition& partition, int sun_directions, Progress& progress,
-                         const SharedElements::Wanted* wanted) {
-  SharedLight result;
-  result.sun_lux.resize(at.size());
-  result.sky_lux.resize(at.size());
-  result.sky_view.resize(at.size());
-  result.scale_lux.assign(at.size(), kLeastScale * source.unobstructed_lux());
-  if (!partition.elements.empty()) {
-    auto light =
-        SharedElements(partition, source.sky.get()).light(sky_engine, at, progress, wanted);
-    result.sky_lux = std::move(light.lux);
-    result.sky_view = std::move(light.sky_view);
-    for (std::size_t s = 0; s < at.size(); ++s) {
-      result.scale_lux[s] =
-          std::hypot(result.scale_lux[s], light.outline_lux[s], kUnmet * light.element_lux[s]);
-    }
-  }
-  if (sun_directions == 0) return result;
-  result.sun_lux = shared_sun_lux(sun_engine, at, source.sun, sun_directions);
-  const double uncertain = 0.4 / std::pow(sun_directions, 0.75);
-  for (std::size_t s = 0; s < at.size(); ++s) {
-    const double whole = source.sun.normal_illuminance.value() *
-                         std::max(0.0, dot(at.normal[s], source.sun.direction));
-    const bool is_partly = result.sun_lux[s] > 1e-6 * whole && result.sun_lux[s] < 0.999 * whole;
-    if (is_partly) result.scale_lux[s] = std::hypot(result.scale_lux[s], uncertain * whole);
-  }
-  return result;
 }
 
 }  // namespace tenku

@@ -2,66 +2,18 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <string_view>
 #include <vector>
 
 #include "core/progress.h"
 #include "illuminance/daylight_source.h"
 #include "illuminance/illuminate.h"
+#include "illuminance/light_method.h"
+#include "illuminance/pilots.h"
 #include "illuminance/planned_region.h"
-#include "illuminance/seen_polygons.h"
 #include "illuminance/sensor.h"
-#include "illuminance/shared_elements.h"
 #include "visibility/engines.h"
 
 namespace tenku {
-
-/// `--engine auto|rays|shadow-maps`.
-enum class EngineChoice { Auto, Rays, ShadowMaps };
-
-/// @throws InputError for any other name
-EngineChoice engine_named(std::string_view name);
-
-/// `--lod off|paper|budget`: how much of the model and the sky is taken into account.
-enum class Detail { Off, Paper, Budget };
-
-/// @throws InputError for any other name
-Detail detail_named(std::string_view name);
-
-/// How direct light is found.
-struct LightMethod {
-  EngineChoice engine = EngineChoice::Auto;
-  Detail detail = Detail::Budget;
-  /// Above zero: the sensors are a picture, and regions lit by maps are good enough if their mean
-  /// absolute error is within 0.3 of this, in percent of the unobstructed light.
-  double picture_tolerance_pct = 0.0;
-  double mu = 1.0;                         ///< `Detail::Paper`: threshold of PaperDetail
-  std::optional<Vec3> eye;                 ///< of a picture: its regions lie from near to far
-  const SeenPolygons* polygons = nullptr;  ///< of a picture; needed for `Detail::Paper`. Borrowed
-  bool is_predicted = false;               ///< times are estimated even where there is no choice
-};
-
-/// Sensors whose direct light is known well beforehand, and what they tell of all.
-///
-/// What a method gives for them less what they truly receive, by a scale that the method knows for
-/// every sensor (here: the light along the outlines that it met), is sorted. The value below which
-/// 95 % of these ratios lie, times the scale of another sensor, is its 95 % interval whatever the
-/// cause of the error: elements, texels, or casters left out.
-///
-/// Source   split conformal prediction: H. Papadopoulos et al., "Inductive confidence machines for
-///          regression", ECML 2002; J. Lei et al., "Distribution-free predictive inference for
-///          regression", J. Am. Stat. Assoc. 113, 2018.
-/// Error    sensors drawn as the pilots were lie inside with a chance of at least 95 %, of
-///          n / (n + 1) of the share that the sorting gives.
-struct Pilots {
-  std::vector<std::uint32_t> sensor;  ///< places in the region
-  std::vector<double> lux;            ///< direct light
-
-  /// @param value, scale  of the pilots, in their order
-  double interval_per_scale(const std::vector<double>& value,
-                            const std::vector<double>& scale) const;
-};
 
 /// A region to be lit.
 struct RegionWork {
@@ -84,21 +36,5 @@ struct RegionWork {
 std::vector<RegionWork> plan_light(const Sensors& sensors, const Engines& engines,
                                    const DaylightSource& source, const IlluminanceOptions& options,
                                    const LightMethod& method, Progress& progress);
-
-/// The sensors of a region, in its order.
-Sensors sensors_of(const Sensors& all, const std::vector<std::uint32_t>& chosen);
-
-/// Moved off their surfaces, as engines want them.
-Sensors lifted(Sensors sensors, double lift_m);
-
-/// Direct light of sensors from directions that all share.
-struct SharedLight {
-  std::vector<double> sun_lux, sky_lux, sky_view;
-  std::vector<double> scale_lux;  ///< of what may be wrong
-};
-SharedLight shared_light(const Visibility& sky_engine, const Visibility& sun_engine,
-                         const Sensors& lifted_sensors, const DaylightSource& source,
-                         const SkyPartition& partition, int sun_directions, Progress& progress,
-                         const SharedElements::Wanted* wanted = nullptr);
 
 }  // namespace tenku

@@ -1,18 +1,16 @@
 #include "illuminance/planned_light.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <numeric>
 
 #include "core/error.h"
+#include "core/stopwatch.h"
 #include "illuminance/error_budget.h"
 #include "illuminance/paper_detail.h"
+#include "illuminance/shared_light.h"
 
 namespace tenku {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// Carries a plan out, region by region.
 class PlannedLight {
@@ -31,14 +29,13 @@ class PlannedLight {
   }
 
   void light(RegionWork& work) {
-    const auto start = Clock::now();
+    const Stopwatch watch;
     if (!work.told.is_shared) {
       by_rays(work);
     } else {
       by_shared_elements(work);
     }
-    const std::chrono::duration<double> time = Clock::now() - start;
-    work.told.measured_s = time.count();
+    work.told.measured_s = watch.seconds();
     double sum = 0.0;
     for (const std::uint32_t s : work.sensor) sum += result_.values.error_lux[s];
     work.told.measured_error_lux = sum / static_cast<double>(work.sensor.size());
@@ -74,29 +71,30 @@ class PlannedLight {
     if (source_.model != nullptr) partition = partition_sky(*source_.model, work.partition);
     const int suns = static_cast<int>(told.sun_directions);
     SharedElements::Wanted wanted;
-    if (method_.detail == Detail::Paper) wanted = wanted_by(work, partition);
+    const SharedElements elements(partition, source_.sky.get());
+    if (method_.detail == Detail::Paper) wanted = wanted_by(work, elements);
     const SharedElements::Wanted* some = method_.detail == Detail::Paper ? &wanted : nullptr;
     SharedLight light;
     if (told.engine == Engine::Rays) {
-      light = shared_light(engines_.rays(), engines_.rays(), at, source_, partition, suns,
-                           progress_, some);
+      light = shared_light(engines_.rays(), engines_.rays(), at, source_, elements, suns, progress_,
+                           some);
       result_.rays += at.size() * (told.elements + told.sun_directions);
     } else {
       const ShadowMaps near = engines_.maps().with(told.texels, told.reach_m);
       const ShadowMaps all = engines_.maps().with(told.texels);
-      light = shared_light(near, all, at, source_, partition, suns, progress_, some);
+      light = shared_light(near, all, at, source_, elements, suns, progress_, some);
     }
     store(work, light);
   }
 
-  SharedElements::Wanted wanted_by(const RegionWork& work, const SkyPartition& partition) const {
+  SharedElements::Wanted wanted_by(const RegionWork& work, const SharedElements& elements) const {
     SeenPolygons seen;
     seen.normal = method_.polygons->normal;
     seen.pixels = method_.polygons->pixels;
     for (const std::uint32_t s : work.sensor) {
       seen.of_sensor.push_back(method_.polygons->of_sensor[s]);
     }
-    return paper_detail(SharedElements(partition, source_.sky.get()), seen, method_.mu);
+    return paper_detail(elements, seen, method_.mu);
   }
 
   void store(const RegionWork& work, const SharedLight& light) {
@@ -162,16 +160,14 @@ IlluminanceResult illuminate(const Sensors& sensors, const Engines& engines,
   }
   std::vector<RegionWork> plan = plan_light(sensors, engines, source, options, method, progress);
   if (is_each_for_itself(plan)) {
-    const auto start = Clock::now();
+    const Stopwatch watch;
     IlluminanceResult result = illuminate(sensors, engines.rays(), source, options, progress);
-    const std::chrono::duration<double> time = Clock::now() - start;
+    const double seconds = watch.seconds();
     if (plan.empty()) return result;
     result.regions = {told_together(plan)};
     // With reflected light the two cannot be told apart.
-    if (options.bounces == 0) result.regions.front().measured_s = time.count();
-    result.regions.front().measured_error_lux =
-        std::accumulate(result.values.error_lux.begin(), result.values.error_lux.end(), 0.0) /
-        static_cast<double>(sensors.size());
+    if (options.bounces == 0) result.regions.front().measured_s = seconds;
+    result.regions.front().measured_error_lux = result.values.mean_error_lux();
     return result;
   }
   PlannedLight light(sensors, engines, source, options, method, progress);
@@ -196,9 +192,9 @@ double predicted_reflection_s(const Sensors& sensors, const RayVisibility& rays,
     some.share_reflected_m = 0.0;
     some.bounces = bounces;
     Progress quiet;
-    const auto start = Clock::now();
+    const Stopwatch watch;
     illuminate(sensors_of(sensors, chosen), rays, source, some, quiet);
-    return std::chrono::duration<double>(Clock::now() - start).count();
+    return watch.seconds();
   };
   const std::size_t more = std::min(kMore, sensors.size()), few = std::min(kFew, more / 2);
   if (few == 0) return seconds(more, options.bounces) - seconds(more, 0);

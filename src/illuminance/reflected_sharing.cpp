@@ -8,7 +8,7 @@
 
 #include "core/parallel.h"
 #include "core/random.h"
-#include "illuminance/light_plan.h"
+#include "illuminance/pilots.h"
 
 namespace tenku {
 namespace {
@@ -84,7 +84,7 @@ void ReflectedSharing::choose_representatives() {
     if (has_representative(s)) continue;
     own_[s] = static_cast<std::uint32_t>(calculated_.size());
     in_cell_[cell_key(s, {})].push_back(own_[s]);
-    calculated_.push_back(s);
+    calculated_.push_back(static_cast<std::uint32_t>(s));
   }
   representatives_ = calculated_.size();
 }
@@ -97,7 +97,7 @@ void ReflectedSharing::draw_pilots() {
     if (own_[s] != kNone || sees_none || of_its_kind == kPilots) continue;
     ++of_its_kind;
     own_[s] = static_cast<std::uint32_t>(calculated_.size());
-    calculated_.push_back(s);
+    calculated_.push_back(static_cast<std::uint32_t>(s));
   }
 }
 

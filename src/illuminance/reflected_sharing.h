@@ -51,7 +51,7 @@ class ReflectedSharing {
 
   const Sensors& sensors() const { return sensors_; }
   /// The sensors to calculate, by index: representatives, then pilots.
-  const std::vector<std::size_t>& calculated() const { return calculated_; }
+  const std::vector<std::uint32_t>& calculated() const { return calculated_; }
 
   /// Fills `all.reflected_lux` and adds to `all.error_lux`, from the results of the calculated
   /// sensors in their order.
@@ -75,7 +75,7 @@ class ReflectedSharing {
   const RayVisibility& rays_;
   SharingLayout layout_;
   std::vector<Vec3> steps_;  ///< to the cells that are blended
-  std::vector<std::size_t> calculated_;
+  std::vector<std::uint32_t> calculated_;
   std::size_t representatives_ = 0;  ///< the first of those calculated
   std::vector<std::uint32_t> own_;   ///< [sensor], place among those calculated, or none
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> in_cell_;  ///< places likewise

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/vec3.h"
@@ -19,6 +20,12 @@ struct Sensors {
 
   std::size_t size() const { return position.size(); }
 };
+
+/// The chosen ones, in the order of `chosen`.
+Sensors sensors_of(const Sensors& all, std::span<const std::uint32_t> chosen);
+
+/// Moved off their surfaces along their normals, as engines want them.
+Sensors lifted(Sensors sensors, double lift_m);
 
 /// What the sensors receive.
 ///
@@ -38,6 +45,8 @@ struct SensorIlluminance {
 
   std::size_t size() const { return sun_lux.size(); }
   double total_lux(std::size_t i) const { return sun_lux[i] + sky_lux[i] + reflected_lux[i]; }
+  /// Mean of `error_lux`; 0 without sensors.
+  double mean_error_lux() const;
 };
 
 }  // namespace tenku

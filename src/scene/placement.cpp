@@ -12,12 +12,6 @@ constexpr double kFar_m = 20000.0;      // float has 2 mm at this distance
 constexpr double kHighest_m = 10000.0;  // no ground is higher; heights beyond are offsets
 constexpr double kDegreesBeyond = 2.0;  // tolerance about the area of use of a CRS
 
-Extent extent_of(const std::vector<Vec3>& points) {
-  Extent box;
-  for (const Vec3 p : points) box.add(p);
-  return box;
-}
-
 Vec3 rounded(Vec3 p) { return {std::round(p.x), std::round(p.y), std::round(p.z)}; }
 
 /// Between file, grid (easting, northing, height; still in the grid's units) and back.

@@ -1,13 +1,13 @@
 /// How long each stage of a calculation took.
 #pragma once
 
-#include <chrono>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/progress.h"
+#include "core/stopwatch.h"
 #include "output/manifest.h"
 
 namespace tenku {
@@ -19,13 +19,12 @@ class StageClock : public Progress {
 
   void begin(std::string_view stage, std::size_t steps) override {
     name_ = stage;
-    start_ = std::chrono::steady_clock::now();
+    watch_ = {};
     listener_.begin(stage, steps);
   }
   void advance(std::size_t steps) override { listener_.advance(steps); }
   void end(std::string_view summary) override {
-    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start_;
-    stages_.push_back({std::exchange(name_, {}), time.count()});
+    stages_.push_back({std::exchange(name_, {}), watch_.seconds()});
     listener_.end(summary);
   }
   bool is_cancelled() const override { return listener_.is_cancelled(); }
@@ -35,7 +34,7 @@ class StageClock : public Progress {
  private:
   Progress& listener_;
   std::string name_;
-  std::chrono::steady_clock::time_point start_;
+  Stopwatch watch_;
   std::vector<ManifestStage> stages_;
 };
 

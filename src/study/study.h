@@ -10,9 +10,10 @@
 
 #include "core/units.h"
 #include "core/vec3.h"
-#include "illuminance/light_plan.h"
+#include "illuminance/light_method.h"
 #include "site/location.h"
 #include "sky_models/sky_partition.h"
+#include "visibility/gl_context.h"
 
 namespace tenku {
 

@@ -197,9 +197,8 @@ ViewPlan plan_view(const ViewRequest& request, const Engines& engines, const Day
   options.bounces = request.bounces;
   const ReflectedSharing sharing(work.points.sensors, sharing_by_pixels(work.points, work.camera),
                                  engines.rays());
-  std::vector<std::uint32_t> few(sharing.calculated().begin(), sharing.calculated().end());
-  plan.reflection_s =
-      predicted_reflection_s(sensors_of(work.points.sensors, few), engines.rays(), source, options);
+  plan.reflection_s = predicted_reflection_s(sensors_of(work.points.sensors, sharing.calculated()),
+                                             engines.rays(), source, options);
   return plan;
 }
 

@@ -258,7 +258,7 @@ Extent reach_of(std::span<const Vec3> points, double reach_m) {
     box.min = {-kAll, -kAll, -kAll}, box.max = {kAll, kAll, kAll};
     return box;
   }
-  for (const Vec3& p : points) box.add(p);
+  box = extent_of(points);
   box.min = box.min - Vec3{reach_m, reach_m, reach_m};
   box.max = box.max + Vec3{reach_m, reach_m, reach_m};
   return box;

@@ -30,13 +30,6 @@ ShadowMapOptions software(int texels) {
   return options;
 }
 
-Sensors lifted(Sensors sensors, double lift_m) {
-  for (std::size_t s = 0; s < sensors.size(); ++s) {
-    sensors.position[s] = sensors.position[s] + lift_m * sensors.normal[s];
-  }
-  return sensors;
-}
-
 TestScene pavement() {
   TestScene scene;
   scene.level({-50, -50, 50, 50}, 0.0);

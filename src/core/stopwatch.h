@@ -1,0 +1,20 @@
+/// Time that has passed.
+#pragma once
+
+#include <chrono>
+
+namespace tenku {
+
+/// Runs from when it is made.
+class Stopwatch {
+ public:
+  /// Clock time so far.
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace tenku
