@@ -11,8 +11,11 @@
 namespace tenku {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, FormFactorMaker*>, 1> kMethods{
-    {{"hemisphere-rays", &make_hemisphere_rays}}};
+constexpr std::array<std::pair<std::string_view, FormFactorMaker*>, 4> kMethods{
+    {{"hemisphere-scanline", &make_hemisphere_scanline},
+     {"hemisphere-zbuffer", &make_hemisphere_zbuffer},
+     {"hemisphere-rays", &make_hemisphere_rays},
+     {"hemicube", &make_hemicube}}};
 
 constexpr int kMaximumResolution = 8192;
 

@@ -11,6 +11,9 @@ namespace tenku {
 using FormFactorMaker = std::unique_ptr<FormFactorMethod>(const ElementMesh& mesh,
                                                           const FormFactorOptions& options);
 
+FormFactorMaker make_hemisphere_scanline;
+FormFactorMaker make_hemisphere_zbuffer;
 FormFactorMaker make_hemisphere_rays;
+FormFactorMaker make_hemicube;
 
 }  // namespace tenku

@@ -1,0 +1,46 @@
+/// Elements projected onto the disc under a hemisphere.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "radiosity/point_view.h"
+#include "radiosity/scan_lines.h"
+
+namespace tenku {
+
+/// Outlines on the disc of radius 1 under the hemisphere about a point: the area of what is inside,
+/// in parts of the disc's, is the form factor (W. Nusselt, 1928).
+///
+/// A corner at p lies on the disc at the x and y of p / |p|, and an edge is an arc of an ellipse.
+/// It is replaced by a polyline with its corners on the arc, each segment of which spans
+/// `polyline_deg` at most, as seen from the point.
+///
+/// Source  A. Doi and T. Itoh, "Acceleration techniques for the progressive refinement radiosity
+///         method", IPSJ 47th convention, 2V-6, 1993: eqs. 1, 2 and 4. The depth of a corner is not
+///         kept: `SeenSide::nearness` tells it exactly, wherever it is asked for.
+/// Error   a polyline takes less than polyline^2 / 6 (in radians) of an area bounded by arcs away:
+///         5e-5 of it for one degree. What one outline loses at an edge, its neighbour gains.
+class DiscOutlines {
+ public:
+  DiscOutlines(const ElementMesh& mesh, const PointView& view, double polyline_deg);
+
+  /// Outline of a seen side. May be empty.
+  std::span<const PlanePoint> operator[](std::size_t seen) const {
+    return {point_.data() + begin_[seen], begin_[seen + 1] - begin_[seen]};
+  }
+  std::size_t size() const { return begin_.size() - 1; }
+  /// Least and greatest y of all points; both 0 where there is none.
+  double low() const { return low_; }
+  double high() const { return high_; }
+
+ private:
+  void add_arc(Vec3 from, Vec3 to);
+
+  double cos_polyline_, polyline_rad_;
+  std::vector<PlanePoint> point_;
+  std::vector<std::size_t> begin_{0};
+  double low_ = 0.0, high_ = 0.0;
+};
+
+}  // namespace tenku
