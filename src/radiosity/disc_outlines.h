@@ -21,26 +21,28 @@ namespace tenku {
 ///         kept: `SeenSide::nearness` tells it exactly, wherever it is asked for.
 /// Error   a polyline takes less than polyline^2 / 6 (in radians) of an area bounded by arcs away:
 ///         5e-5 of it for one degree. What one outline loses at an edge, its neighbour gains.
+/// Threads  one a thread.
 class DiscOutlines {
  public:
+  /// @param mesh, view  kept by reference
   DiscOutlines(const ElementMesh& mesh, const PointView& view, double polyline_deg);
 
-  /// Outline of a seen side. May be empty.
-  std::span<const PlanePoint> operator[](std::size_t seen) const {
-    return {point_.data() + begin_[seen], begin_[seen + 1] - begin_[seen]};
-  }
-  std::size_t size() const { return begin_.size() - 1; }
-  /// Least and greatest y of all points; both 0 where there is none.
-  double low() const { return low_; }
-  double high() const { return high_; }
+  /// Outline of a seen side, valid until the next call. May be empty.
+  std::span<const PlanePoint> operator()(const SeenSide& seen);
+
+  /// Range of y in which all outlines lie: the whole disc where they fill much of it.
+  struct Range {
+    double low, high;
+  };
+  Range range();
 
  private:
   void add_arc(Vec3 from, Vec3 to);
 
-  double cos_polyline_, polyline_rad_;
+  const ElementMesh& mesh_;
+  const PointView& view_;
+  double cos_polyline_, sin_polyline_;
   std::vector<PlanePoint> point_;
-  std::vector<std::size_t> begin_{0};
-  double low_ = 0.0, high_ = 0.0;
 };
 
 }  // namespace tenku

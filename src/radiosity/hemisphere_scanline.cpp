@@ -10,10 +10,10 @@ namespace {
 
 /// Lines over the height of what is seen, so that little and far things get as many as near ones
 /// when they are alone. All are moved by a random part of their distance.
-LineSet lines_over(const DiscOutlines& outlines, int count, std::uint64_t key) {
-  const double step = (outlines.high() - outlines.low()) / count;
+LineSet lines_over(const DiscOutlines::Range& range, int count, std::uint64_t key) {
+  const double step = (range.high - range.low) / count;
   const double phase = SampleRandom(key, 1, 0).uniform();
-  return {outlines.low() + phase * step, step, count};
+  return {range.low + phase * step, step, count};
 }
 
 double area_below(double y) {
@@ -25,24 +25,24 @@ double area_below(double y) {
 ///
 /// Source  the paper's eq. 8, 2 / (pi N) for N lines over the whole disc. The lengths of all lines
 ///         across the disc then only nearly make its area; here they make it exactly.
-double unit_of(const LineSet& lines, double low) {
+double unit_of(const LineSet& lines, const DiscOutlines::Range& range) {
   double across = 0.0;
   for (int k = 0; k < lines.count; ++k) {
     across += 2.0 * std::sqrt(std::max(0.0, 1.0 - lines.y(k) * lines.y(k)));
   }
-  return (area_below(low + lines.count * lines.step) - area_below(low)) / (kPi * across);
+  return (area_below(range.high) - area_below(range.low)) / (kPi * across);
 }
 
 /// Elements of one line, of all elements of a view.
 class LineSpans {
  public:
-  LineSpans(const DiscOutlines& outlines, const LineSet& lines)
+  LineSpans(const PointView& view, DiscOutlines& outlines, const LineSet& lines)
       : begin_(static_cast<std::size_t>(lines.count) + 1) {
     std::vector<std::uint32_t> line_of;
     std::vector<DiscSpan> all;
     ScanLines scan(lines);
-    for (std::uint32_t s = 0; s < outlines.size(); ++s) {
-      scan.spans(outlines[s], [&](int line, double x0, double x1) {
+    for (std::uint32_t s = 0; s < view.seen.size(); ++s) {
+      scan.spans(outlines(view.seen[s]), [&](int line, double x0, double x1) {
         line_of.push_back(static_cast<std::uint32_t>(line));
         all.push_back({x0, x1, s});
         ++begin_[static_cast<std::size_t>(line) + 1];
@@ -77,13 +77,14 @@ class HemisphereScanline : public FormFactorMethod {
   FormFactorRow from_point(Vec3 position, Vec3 normal) const override {
     const std::uint64_t key = key_of(position, normal, options_.seed);
     const PointView view(mesh_, position, PointAxes(normal, key));
-    const DiscOutlines outlines(mesh_, view, options_.polyline_deg);
-    if (!(outlines.low() < outlines.high())) return {};
-    const LineSet lines = lines_over(outlines, options_.resolution, key);
-    LineSpans spans(outlines, lines);
+    DiscOutlines outlines(mesh_, view, options_.polyline_deg);
+    const DiscOutlines::Range range = outlines.range();
+    if (!(range.low < range.high)) return {};
+    const LineSet lines = lines_over(range, options_.resolution, key);
+    LineSpans spans(view, outlines, lines);
     VisibleSpans visible(view);
     for (int line = 0; line < lines.count; ++line) visible.add_line(lines.y(line), spans[line]);
-    return row_of(view, visible.length(), unit_of(lines, outlines.low()));
+    return row_of(view, visible.length(), unit_of(lines, range));
   }
 
  private:

@@ -29,12 +29,12 @@ class HemisphereZBuffer : public FormFactorMethod {
   FormFactorRow from_point(Vec3 position, Vec3 normal) const override {
     const std::uint64_t key = key_of(position, normal, options_.seed);
     const PointView view(mesh_, position, PointAxes(normal, key));
-    const DiscOutlines outlines(mesh_, view, options_.polyline_deg);
+    DiscOutlines outlines(mesh_, view, options_.polyline_deg);
     ScanLines scan({at(0), step_, options_.resolution});
     ItemBuffer buffer(options_.resolution, options_.resolution);
-    for (std::uint32_t s = 0; s < outlines.size(); ++s) {
+    for (std::uint32_t s = 0; s < view.seen.size(); ++s) {
       const Vec3 nearness = view.seen[s].nearness;
-      scan.spans(outlines[s], [&](int row, double x0, double x1) {
+      scan.spans(outlines(view.seen[s]), [&](int row, double x0, double x1) {
         const double of_row = nearness.y * at(static_cast<std::size_t>(row));
         const std::size_t first = buffer.index(row, 0);
         buffer.fill(row, (x0 + 1.0) / step_, (x1 + 1.0) / step_, s, [&](std::size_t column) {
