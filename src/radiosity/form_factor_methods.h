@@ -15,5 +15,6 @@ FormFactorMaker make_hemisphere_scanline;
 FormFactorMaker make_hemisphere_zbuffer;
 FormFactorMaker make_hemisphere_rays;
 FormFactorMaker make_hemicube;
+FormFactorMaker make_analytic_form_factors;
 
 }  // namespace tenku

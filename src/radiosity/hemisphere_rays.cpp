@@ -61,6 +61,7 @@ class HemisphereRays : public FormFactorMethod {
   }
 
   std::string_view name() const override { return "hemisphere-rays"; }
+  double lift_m() const override { return rays_.lift_m(); }
 
   FormFactorRow from_point(Vec3 position, Vec3 normal) const override {
     const std::vector<Vec3> direction = directions_at(position, normal);
