@@ -94,6 +94,7 @@ class AnalyticFormFactors : public FormFactorMethod {
       : mesh_(mesh), seed_(options.seed), soup_(soup_of(mesh)), rays_(soup_, materials_) {}
 
   std::string_view name() const override { return "analytic"; }
+  bool is_exact() const override { return true; }
 
   FormFactorRow from_point(Vec3 position, Vec3 normal) const override {
     const PointAxes axes(normal, key_of(position, normal, seed_));

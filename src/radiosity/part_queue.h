@@ -1,0 +1,60 @@
+/// The parts of an element from which its row is integrated.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <queue>
+#include <vector>
+
+#include "radiosity/form_factor.h"
+#include "radiosity/patch_form_factors.h"
+#include "radiosity/sparse_row.h"
+
+namespace tenku {
+
+/// Integrates the row of one side of an element by parts, which are triangles.
+class PartQueue {
+ public:
+  /// @param wanted  [side]: which form factors are asked for
+  /// @param method, mesh, options, wanted  kept by reference
+  PartQueue(const FormFactorMethod& method, const ElementMesh& mesh,
+            const PatchFormFactorOptions& options, const std::vector<char>& wanted,
+            std::uint32_t side);
+
+  /// Cuts parts until all form factors are within their tolerances.
+  void refine();
+
+  /// Mean row over the element, and its error: [side], sparse.
+  SparseRow row() const { return total_of(&Part::row); }
+  SparseRow error() const { return total_of(&Part::error); }
+
+ private:
+  struct Part {
+    std::array<Vec3, 3> corner;
+    double share;          ///< of the area of the element
+    SparseRow row, error;  ///< times the share
+    Vec3 across{};         ///< direction in which it is to be cut; zero: its longest edge
+    double doubt = 0.0;
+  };
+
+  Part make_part(const std::array<Vec3, 3>& corner, double share) const;
+  void add_doubt_of_edges(Part& part) const;
+  SparseRow row_of(const Part& part) const;
+  std::array<Part, 2> halves(const Part& part) const;
+  SparseRow total_of(SparseRow Part::*what) const;
+  double tolerance(std::uint32_t side) const;
+  bool is_done() const;
+  void account(const Part& part, double sense);
+  double doubt_of(const Part& part) const;
+
+  const FormFactorMethod& method_;
+  const ElementMesh& mesh_;
+  const PatchFormFactorOptions& options_;
+  const std::vector<char>& wanted_;
+  std::uint32_t side_;
+  Vec3 normal_;
+  std::vector<Part> part_;             ///< a heap: the greatest doubt first
+  std::vector<double> value_, error_;  ///< [side], running sums
+};
+
+}  // namespace tenku
