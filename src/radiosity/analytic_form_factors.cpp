@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/random.h"
@@ -17,7 +16,10 @@ namespace {
 /// what may stand before something is found fast.
 class SeenGrid {
  public:
-  SeenGrid(const ElementMesh& mesh, const PointView& view) : view_(view) {
+  SeenGrid(const ElementMesh& mesh, const PointView& view)
+      : view_(view),
+        cells_(1 + std::min(31, static_cast<int>(std::sqrt(view.seen.size()) / 4.0))),
+        cell_(static_cast<std::size_t>(cells_ * cells_)) {
     for (std::uint32_t s = 0; s < view.seen.size(); ++s) {
       polygon_.push_back(view.polygon(mesh, view.seen[s]));
       box_.push_back(box_of(polygon_.back()));
@@ -45,7 +47,6 @@ class SeenGrid {
   }
 
  private:
-  static constexpr int kCells = 32;  ///< along the edge of the grid
   struct Box {
     double low_x = 0.0, low_y = 0.0, high_x = -1.0, high_y = -1.0;
   };
@@ -69,21 +70,22 @@ class SeenGrid {
 
   template <class Do>
   void for_cells(const Box& box, const Do& act) {
-    const auto cell = [](double at) {
-      return static_cast<int>(std::clamp(0.5 * (at + 1.0), 0.0, 1.0) * (kCells - 1));
+    const auto cell = [&](double at) {
+      return static_cast<int>(std::clamp(0.5 * (at + 1.0), 0.0, 1.0) * (cells_ - 1));
     };
     if (box.low_x > box.high_x) return;
     for (int y = cell(box.low_y); y <= cell(box.high_y); ++y) {
       for (int x = cell(box.low_x); x <= cell(box.high_x); ++x) {
-        act(cell_[static_cast<std::size_t>(y * kCells + x)]);
+        act(cell_[static_cast<std::size_t>(y * cells_ + x)]);
       }
     }
   }
 
   const PointView& view_;
+  int cells_;  ///< along the edge of the grid
+  std::vector<std::vector<std::uint32_t>> cell_;
   std::vector<ConvexPolygon> polygon_;
   std::vector<Box> box_;
-  std::array<std::vector<std::uint32_t>, static_cast<std::size_t>(kCells* kCells)> cell_;
 };
 
 /// Lambert's formula for what is seen of each element. Where few others stand before it, they are

@@ -41,7 +41,10 @@ class DiscOutlines {
 
   const ElementMesh& mesh_;
   const PointView& view_;
-  double cos_polyline_, sin_polyline_;
+  void set_polyline(const ConvexPolygon& polygon);
+
+  double polyline_rad_, used_rad_;      ///< asked for, and of the outline at hand
+  double cos_polyline_, sin_polyline_;  ///< of `used_rad_`
   std::vector<PlanePoint> point_;
 };
 

@@ -12,40 +12,25 @@ Vec3 centre_of(const std::array<Vec3, 3>& corner) {
   return (1.0 / 3.0) * (corner[0] + corner[1] + corner[2]);
 }
 
-double extent_along(const std::array<Vec3, 3>& corner, Vec3 direction) {
-  const auto [low, high] = std::minmax(
-      {dot(corner[0], direction), dot(corner[1], direction), dot(corner[2], direction)});
-  return high - low;
-}
-
-/// Nearest point to `point` on the edge from `a` to `b`.
-Vec3 nearest_on_edge(Vec3 point, Vec3 a, Vec3 b) {
-  const Vec3 along = b - a;
-  const double at = dot(point - a, along) / dot(along, along);
-  return a + std::clamp(at, 0.0, 1.0) * along;
-}
-
 }  // namespace
 
-PartQueue::PartQueue(const FormFactorMethod& method, const ElementMesh& mesh,
-                     const PatchFormFactorOptions& options, const std::vector<char>& wanted,
-                     std::uint32_t side)
-    : method_(method),
-      mesh_(mesh),
-      options_(options),
-      wanted_(wanted),
-      side_(side),
-      normal_(mesh.normal(side)),
-      value_(mesh.sides()),
-      error_(mesh.sides()) {
-  const auto& [a, b, c] = mesh.elements[side / 2];
-  part_.push_back(make_part({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]}, 1.0));
+PartQueue::PartQueue(const PartTask& task, const std::vector<char>& wanted, std::uint32_t side)
+    : task_(task), wanted_(wanted), side_(side), normal_(task.mesh.normal(side)) {
+  std::size_t columns = 0;
+  for (const Column c : task.column) {
+    if (c != kNoColumn) columns = std::max<std::size_t>(columns, c + 1);
+  }
+  value_.resize(columns);
+  error_.resize(columns);
+  const auto& [a, b, c] = task.mesh.elements[side / 2];
+  part_.push_back(
+      make_part({task.mesh.vertices[a], task.mesh.vertices[b], task.mesh.vertices[c]}, 1.0));
   account(part_.front(), 1.0);
 }
 
 void PartQueue::refine() {
   constexpr std::size_t kPointsAPart = 3;
-  for (std::size_t points = kPointsAPart; points + 2 * kPointsAPart <= options_.most_points;
+  for (std::size_t points = kPointsAPart; points + 2 * kPointsAPart <= task_.options.most_points;
        points += 2 * kPointsAPart) {
     if (is_done()) return;
     std::pop_heap(part_.begin(), part_.end(), kLessDoubt);
@@ -69,16 +54,17 @@ PartQueue::Part PartQueue::make_part(const std::array<Vec3, 3>& corner, double s
 
 /// Three points, which are exact for what bends like a parabola.
 SparseRow PartQueue::row_of(const Part& part) const {
-  SparseRow sum;
+  SparseRow all;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 at = 0.5 * centre_of(part.corner) + 0.5 * part.corner[k];
-    SparseRow row;
-    for (const auto& [side, value] : method_.from_point(at + method_.lift_m() * normal_, normal_)) {
-      if (wanted_[side]) row.push_back({side, value});
+    for (const auto& [side, value] :
+         task_.method.from_point(at + task_.method.lift_m() * normal_, normal_)) {
+      if (wanted_[side] && task_.column[side] != kNoColumn) {
+        all.push_back({task_.column[side], value * part.share / 3.0});
+      }
     }
-    sum = combined(sum, 1.0, row, part.share / 3.0);
   }
-  return sum;
+  return sorted(std::move(all));
 }
 
 std::array<PartQueue::Part, 2> PartQueue::halves(const Part& part) const {
@@ -103,61 +89,43 @@ std::array<PartQueue::Part, 2> PartQueue::halves(const Part& part) const {
   return half;
 }
 
-/// Where an edge is nearer than the rule allows, what its element could at most cover may have
-/// been missed, or counted in vain, by some of the part.
 void PartQueue::add_doubt_of_edges(Part& part) const {
-  constexpr double kSome = 0.1;
-  const Vec3 centre = centre_of(part.corner);
+  SparseRow all;
   double worst = 0.0;
-  SparseRow doubt;
-  for (std::uint32_t e = 0; e < mesh_.size(); ++e) {
-    if (e == side_ / 2 || !(wanted_[2 * e] || wanted_[2 * e + 1])) continue;
-    const Vec3 normal = mesh_.normal(2 * e);
-    const double height = dot(centre - mesh_.vertices[mesh_.elements[e][0]], normal);
-    const std::uint32_t seen = 2 * e + (height < 0.0 ? 1 : 0);
-    if (!wanted_[seen]) continue;
-    double nearest = 0.0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 a = mesh_.vertices[mesh_.elements[e][k]];
-      const Vec3 b = mesh_.vertices[mesh_.elements[e][(k + 1) % 3]];
-      const Vec3 to = nearest_on_edge(centre, a, b) - centre;
-      const double distance = length(to);
-      Vec3 across = to - dot(to, normal_) * normal_;
-      if (length(across) < 0.1 * distance) across = cross(normal_, b - a);
-      across = normalized(across);
-      const double extent = extent_along(part.corner, across);
-      if (!(extent * options_.distance_ratio > distance)) continue;
-      const double could =
-          part.share * std::min(1.0, mesh_.area_m2(e) / (kPi * distance * distance));
-      nearest = std::max(nearest, kSome * could);
-      if (could > worst) worst = could, part.across = across;
+  for (const auto& [column, value, across] :
+       task_.edges.doubts(part.corner, side_, task_.options.distance_ratio, wanted_)) {
+    all.push_back({column, part.share * value});
+    if (value / tolerance(column) > worst) {
+      worst = value / tolerance(column), part.across = across;
     }
-    if (nearest > 0.0) doubt.push_back({seen, nearest});
   }
-  part.error = combined(part.error, 1.0, doubt, 1.0);
+  part.error = combined(part.error, 1.0, sorted(std::move(all)), 1.0);
 }
 
-double PartQueue::tolerance(std::uint32_t side) const {
-  return std::max(options_.absolute_tolerance, options_.relative_tolerance * value_[side]);
+double PartQueue::tolerance(Column column) const {
+  return std::max(task_.options.absolute_tolerance,
+                  task_.options.relative_tolerance * value_[column]);
 }
 
 double PartQueue::doubt_of(const Part& part) const {
   double doubt = 0.0;
-  for (const auto& [side, error] : part.error) doubt = std::max(doubt, error / tolerance(side));
+  for (const auto& [column, error] : part.error) {
+    doubt = std::max(doubt, error / tolerance(column));
+  }
   return doubt;
 }
 
 bool PartQueue::is_done() const {
   if (part_.size() == 1) return false;  // nothing is known of its error yet
-  for (std::uint32_t side = 0; side < error_.size(); ++side) {
-    if (error_[side] > tolerance(side)) return false;
+  for (Column column = 0; column < error_.size(); ++column) {
+    if (error_[column] > tolerance(column)) return false;
   }
   return true;
 }
 
 void PartQueue::account(const Part& part, double sense) {
-  for (const auto& [side, value] : part.row) value_[side] += sense * value;
-  for (const auto& [side, error] : part.error) error_[side] += sense * error;
+  for (const auto& [column, value] : part.row) value_[column] += sense * value;
+  for (const auto& [column, error] : part.error) error_[column] += sense * error;
 }
 
 SparseRow PartQueue::total_of(SparseRow Part::*what) const {

@@ -3,28 +3,34 @@
 
 #include <array>
 #include <cstdint>
-#include <queue>
 #include <vector>
 
 #include "radiosity/form_factor.h"
 #include "radiosity/patch_form_factors.h"
 #include "radiosity/sparse_row.h"
+#include "radiosity/target_edges.h"
 
 namespace tenku {
+
+/// What is integrated, and how. All is borrowed.
+struct PartTask {
+  const FormFactorMethod& method;
+  const ElementMesh& mesh;
+  const PatchFormFactorOptions& options;
+  const std::vector<Column>& column;  ///< [side]
+  const TargetEdges& edges;
+};
 
 /// Integrates the row of one side of an element by parts, which are triangles.
 class PartQueue {
  public:
-  /// @param wanted  [side]: which form factors are asked for
-  /// @param method, mesh, options, wanted  kept by reference
-  PartQueue(const FormFactorMethod& method, const ElementMesh& mesh,
-            const PatchFormFactorOptions& options, const std::vector<char>& wanted,
-            std::uint32_t side);
+  /// @param wanted  [side]: which form factors are asked for; kept by reference
+  PartQueue(const PartTask& task, const std::vector<char>& wanted, std::uint32_t side);
 
   /// Cuts parts until all form factors are within their tolerances.
   void refine();
 
-  /// Mean row over the element, and its error: [side], sparse.
+  /// Mean row over the element, and its error, by column.
   SparseRow row() const { return total_of(&Part::row); }
   SparseRow error() const { return total_of(&Part::error); }
 
@@ -42,19 +48,17 @@ class PartQueue {
   SparseRow row_of(const Part& part) const;
   std::array<Part, 2> halves(const Part& part) const;
   SparseRow total_of(SparseRow Part::*what) const;
-  double tolerance(std::uint32_t side) const;
+  double tolerance(Column column) const;
   bool is_done() const;
   void account(const Part& part, double sense);
   double doubt_of(const Part& part) const;
 
-  const FormFactorMethod& method_;
-  const ElementMesh& mesh_;
-  const PatchFormFactorOptions& options_;
+  PartTask task_;
   const std::vector<char>& wanted_;
   std::uint32_t side_;
   Vec3 normal_;
   std::vector<Part> part_;             ///< a heap: the greatest doubt first
-  std::vector<double> value_, error_;  ///< [side], running sums
+  std::vector<double> value_, error_;  ///< [column], running sums
 };
 
 }  // namespace tenku

@@ -1,7 +1,9 @@
 #include "radiosity/patch_form_factors.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "core/error.h"
 #include "radiosity/exchange_area.h"
 #include "radiosity/part_queue.h"
 
@@ -26,28 +28,36 @@ double clear_form_factor(const ElementMesh& mesh, std::uint32_t from, std::uint3
          mesh.area_m2(from / 2);
 }
 
-/// Adds the form factors to what a side sees unhindered, and marks the others.
-SparseRow clear_row(const ElementMesh& mesh, const Sightlines& sightlines, std::uint32_t from,
+/// Form factors to what a side sees unhindered; what it does not so see stays wanted.
+SparseRow clear_row(const ElementMesh& mesh, const Sightlines& sightlines,
+                    const std::vector<Column>& column, std::uint32_t from,
                     std::vector<char>& wanted) {
   SparseRow row;
   const auto before = [](std::uint8_t sides, std::uint32_t side) {
     return (sides & (side % 2 == 0 ? Sightlines::kFront : Sightlines::kBack)) != 0;
   };
   for (std::uint32_t to = 0; to < mesh.sides(); ++to) {
+    if (!wanted[to]) continue;
     const bool facing = before(sightlines.sides(from / 2, to / 2), from) &&
                         before(sightlines.sides(to / 2, from / 2), to);
-    const bool clear = !facing || sightlines.are_clear(from / 2, to / 2);
-    if (facing && clear) row.push_back({to, clear_form_factor(mesh, from, to)});
-    wanted[to] = clear ? 0 : 1;
+    if (facing && !sightlines.are_clear(from / 2, to / 2)) continue;
+    if (facing) row.push_back({column[to], clear_form_factor(mesh, from, to)});
+    wanted[to] = 0;
   }
-  return row;
+  return sorted(std::move(row));
 }
 
 }  // namespace
 
 PatchFormFactors::PatchFormFactors(const FormFactorMethod& method, const ElementMesh& mesh,
+                                   std::vector<Column> column,
                                    const PatchFormFactorOptions& options)
-    : method_(method), mesh_(mesh), options_(options) {
+    : method_(method),
+      mesh_(mesh),
+      column_(std::move(column)),
+      options_(options),
+      edges_(mesh, column_) {
+  expects(column_.size() == mesh.sides(), "each side has a column");
   if (method.is_exact() && mesh.size() <= Sightlines::kMostElements) sightlines_.emplace(mesh);
 }
 
@@ -57,21 +67,23 @@ std::vector<PatchFormFactor> PatchFormFactors::row(std::size_t patch, bool back)
   for (std::uint32_t e = mesh_.patch_begin[patch]; e < mesh_.patch_begin[patch + 1]; ++e) {
     const std::uint32_t side = 2 * e + (back ? 1 : 0);
     const double share = mesh_.area_m2(e) / patch_area;
-    std::vector<char> wanted(mesh_.sides(), 1);
+    std::vector<char> wanted(mesh_.sides());
+    for (std::size_t s = 0; s < wanted.size(); ++s) wanted[s] = column_[s] != kNoColumn ? 1 : 0;
     if (sightlines_) {
-      value = combined(value, 1.0, clear_row(mesh_, *sightlines_, side, wanted), share);
+      value = combined(value, 1.0, clear_row(mesh_, *sightlines_, column_, side, wanted), share);
     }
     if (std::find(wanted.begin(), wanted.end(), 1) == wanted.end()) continue;
-    PartQueue parts(method_, mesh_, options_, wanted, side);
+    PartQueue parts({method_, mesh_, options_, column_, edges_}, wanted, side);
     parts.refine();
     value = combined(value, 1.0, parts.row(), share);
     error = combined(error, 1.0, parts.error(), share);
   }
   std::vector<PatchFormFactor> row;
-  for (const auto& [side, sum] : combined(value, 1.0, error, 0.0)) row.push_back({side, sum, 0.0});
+  for (const auto& [column, sum] : combined(value, 1.0, error, 0.0))
+    row.push_back({column, sum, 0});
   auto to = row.begin();
-  for (const auto& [side, sum] : error) {
-    while (to->side != side) ++to;
+  for (const auto& [column, sum] : error) {
+    while (to->column != column) ++to;
     to->error = sum;
   }
   return row;

@@ -1,18 +1,18 @@
 /// Form factors from surfaces, not points: rows of patches.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "radiosity/form_factor.h"
 #include "radiosity/sightlines.h"
+#include "radiosity/target_edges.h"
 
 namespace tenku {
 
-/// Of all that one side of a patch sends, what reaches a side first.
+/// Of all that one side of a patch sends, what reaches the sides of a column first.
 struct PatchFormFactor {
-  std::uint32_t side;
+  Column column;
   double value;
   double error;  ///< estimate, of the integration over the patch
 };
@@ -44,16 +44,19 @@ struct PatchFormFactorOptions {
 class PatchFormFactors {
  public:
   /// @param method, mesh  kept by reference
+  /// @param column        [side]: which sides are taken together, by number from 0, or `kNoColumn`
   PatchFormFactors(const FormFactorMethod& method, const ElementMesh& mesh,
-                   const PatchFormFactorOptions& options);
+                   std::vector<Column> column, const PatchFormFactorOptions& options);
 
-  /// Row of a side of a patch, in rising order of side.
+  /// Row of a side of a patch, in rising order of column.
   std::vector<PatchFormFactor> row(std::size_t patch, bool back) const;
 
  private:
   const FormFactorMethod& method_;
   const ElementMesh& mesh_;
+  std::vector<Column> column_;
   PatchFormFactorOptions options_;
+  TargetEdges edges_;
   std::optional<Sightlines> sightlines_;
 };
 
