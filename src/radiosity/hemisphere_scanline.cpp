@@ -42,11 +42,12 @@ class LineSpans {
     std::vector<DiscSpan> all;
     ScanLines scan(lines);
     for (std::uint32_t s = 0; s < view.seen.size(); ++s) {
-      scan.spans(outlines(view.seen[s]), [&](int line, double x0, double x1) {
+      const auto add = [&](int line, double x0, double x1) {
         line_of.push_back(static_cast<std::uint32_t>(line));
         all.push_back({x0, x1, s});
         ++begin_[static_cast<std::size_t>(line) + 1];
-      });
+      };
+      scan.spans(outlines(view.seen[s]), add, outlines.exactly());
     }
     for (std::size_t k = 1; k < begin_.size(); ++k) begin_[k] += begin_[k - 1];
     std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);

@@ -34,13 +34,14 @@ class HemisphereZBuffer : public FormFactorMethod {
     ItemBuffer buffer(options_.resolution, options_.resolution);
     for (std::uint32_t s = 0; s < view.seen.size(); ++s) {
       const Vec3 nearness = view.seen[s].nearness;
-      scan.spans(outlines(view.seen[s]), [&](int row, double x0, double x1) {
+      const auto fill = [&](int row, double x0, double x1) {
         const double of_row = nearness.y * at(static_cast<std::size_t>(row));
         const std::size_t first = buffer.index(row, 0);
         buffer.fill(row, (x0 + 1.0) / step_, (x1 + 1.0) / step_, s, [&](std::size_t column) {
           return nearness.x * at(column) + of_row + nearness.z * height_[first + column];
         });
-      });
+      };
+      scan.spans(outlines(view.seen[s]), fill, outlines.exactly());
     }
     std::vector<double> covered(view.seen.size());
     for (const std::uint32_t item : buffer.item()) {

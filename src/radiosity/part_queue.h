@@ -21,7 +21,8 @@ struct PartTask {
   const TargetEdges& edges;
 };
 
-/// Integrates the row of one side of an element by parts, which are triangles.
+/// Integrates the row of one side of an element by parts, which are quadrilaterals: three
+/// to begin with, which meet in the middle of the element.
 class PartQueue {
  public:
   /// @param wanted  [side]: which form factors are asked for; kept by reference
@@ -36,16 +37,15 @@ class PartQueue {
 
  private:
   struct Part {
-    std::array<Vec3, 3> corner;
-    double share;          ///< of the area of the element
-    SparseRow row, error;  ///< times the share
-    Vec3 across{};         ///< direction in which it is to be cut; zero: its longest edge
+    std::array<Vec3, 4> corner;
+    SparseRow row, error;  ///< times the part's share of the element
+    Vec3 across{};         ///< direction in which it is to be cut; zero: the longer way
     double doubt = 0.0;
   };
 
-  Part make_part(const std::array<Vec3, 3>& corner, double share) const;
   void add_doubt_of_edges(Part& part) const;
-  SparseRow row_of(const Part& part) const;
+  SparseRow row_of(const std::array<Vec3, 4>& corner) const;
+  void push(Part part);
   std::array<Part, 2> halves(const Part& part) const;
   SparseRow total_of(SparseRow Part::*what) const;
   double tolerance(Column column) const;
@@ -57,6 +57,7 @@ class PartQueue {
   const std::vector<char>& wanted_;
   std::uint32_t side_;
   Vec3 normal_;
+  double area_m2_;
   std::vector<Part> part_;             ///< a heap: the greatest doubt first
   std::vector<double> value_, error_;  ///< [column], running sums
 };

@@ -33,8 +33,10 @@ class ScanLines {
       : lines_(lines), crossing_(static_cast<std::size_t>(std::max(0, lines.count))) {}
 
   /// Calls `emit(line, x0, x1)` for each span of the outline, x0 < x1, line after line.
-  template <class Emit>
-  void spans(std::span<const PlanePoint> outline, const Emit& emit) {
+  /// @param crossing  `crossing(k, y, x)`: where the edge from point k, which crosses the line at y
+  ///                  in x if it is straight, really does
+  template <class Emit, class Crossing>
+  void spans(std::span<const PlanePoint> outline, const Emit& emit, const Crossing& crossing) {
     int low = lines_.count, high = -1;
     for (std::size_t k = 0; k < outline.size(); ++k) {
       const PlanePoint a = outline[k], b = outline[k + 1 < outline.size() ? k + 1 : 0];
@@ -44,8 +46,8 @@ class ScanLines {
       low = std::min(low, begin), high = std::max(high, end - 1);
       const double slope = (top.x - bottom.x) / (top.y - bottom.y);
       for (int line = begin; line < end; ++line) {
-        crossing_[static_cast<std::size_t>(line)].add(bottom.x +
-                                                      (lines_.y(line) - bottom.y) * slope);
+        const double y = lines_.y(line), x = bottom.x + (y - bottom.y) * slope;
+        crossing_[static_cast<std::size_t>(line)].add(crossing(k, y, x));
       }
     }
     for (int line = low; line <= high; ++line) {
@@ -58,6 +60,12 @@ class ScanLines {
       }
       at.count = 0;
     }
+  }
+
+  /// The same for straight edges.
+  template <class Emit>
+  void spans(std::span<const PlanePoint> outline, const Emit& emit) {
+    spans(outline, emit, [](std::size_t, double, double x) { return x; });
   }
 
  private:

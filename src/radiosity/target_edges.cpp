@@ -10,11 +10,17 @@ namespace {
 
 using Triangle = std::array<Vec3, 3>;
 
-Vec3 centre_of(const Triangle& t) { return (1.0 / 3.0) * (t[0] + t[1] + t[2]); }
+Vec3 centre_of(std::span<const Vec3> corner) {
+  Vec3 sum{};
+  for (const Vec3& c : corner) sum = sum + c;
+  return (1.0 / static_cast<double>(corner.size())) * sum;
+}
 
-double extent_along(const Triangle& t, Vec3 direction) {
-  const auto [low, high] =
-      std::minmax({dot(t[0], direction), dot(t[1], direction), dot(t[2], direction)});
+double extent_along(std::span<const Vec3> corner, Vec3 direction) {
+  double low = dot(corner[0], direction), high = low;
+  for (const Vec3& c : corner) {
+    low = std::min(low, dot(c, direction)), high = std::max(high, dot(c, direction));
+  }
   return high - low;
 }
 
@@ -36,24 +42,34 @@ double distance_of_edges(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
                    length(nearest_on_edge(c, a, b) - c), length(nearest_on_edge(d, a, b) - d)});
 }
 
-bool is_over(const Triangle& t, Vec3 normal, Vec3 point) {
-  const auto side = [&](std::size_t k) {
-    return dot(cross(t[(k + 1) % 3] - t[k], point - t[k]), normal);
-  };
-  const double a = side(0), b = side(1), c = side(2);
-  return (a >= 0.0 && b >= 0.0 && c >= 0.0) || (a <= 0.0 && b <= 0.0 && c <= 0.0);
+bool is_over(std::span<const Vec3> corner, Vec3 normal, Vec3 point) {
+  bool inside = true, outside = true;
+  for (std::size_t k = 0; k < corner.size(); ++k) {
+    const Vec3 edge = corner[(k + 1) % corner.size()] - corner[k];
+    const double side = dot(cross(edge, point - corner[k]), normal);
+    inside = inside && side >= 0.0, outside = outside && side <= 0.0;
+  }
+  return inside || outside;
 }
 
-/// Least distance from a triangle with a unit normal to an edge.
-double distance_to_edge(const Triangle& t, Vec3 normal, Vec3 a, Vec3 b) {
+/// Least distance from a convex polygon with a unit normal to an edge.
+double distance_to_edge(std::span<const Vec3> corner, Vec3 normal, Vec3 a, Vec3 b) {
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < 3; ++k) {
-    least = std::min(least, distance_of_edges(t[k], t[(k + 1) % 3], a, b));
+  for (std::size_t k = 0; k < corner.size(); ++k) {
+    least = std::min(least, distance_of_edges(corner[k], corner[(k + 1) % corner.size()], a, b));
   }
   for (const Vec3& end : {a, b}) {
-    if (is_over(t, normal, end)) least = std::min(least, std::abs(dot(end - t[0], normal)));
+    if (is_over(corner, normal, end)) {
+      least = std::min(least, std::abs(dot(end - corner[0], normal)));
+    }
   }
   return least;
+}
+
+double greatest_height(std::span<const Vec3> corner, Vec3 at, Vec3 normal) {
+  double height = 0.0;
+  for (const Vec3& c : corner) height = std::max(height, std::abs(dot(c - at, normal)));
+  return height;
 }
 
 Triangle corners_of(const ElementMesh& mesh, std::size_t element) {
@@ -96,13 +112,13 @@ TargetEdges::TargetEdges(const ElementMesh& mesh, const std::vector<Column>& col
   }
 }
 
-std::vector<TargetEdges::Doubt> TargetEdges::doubts(const Triangle& triangle, std::uint32_t side,
+std::vector<TargetEdges::Doubt> TargetEdges::doubts(std::span<const Vec3> part, std::uint32_t side,
                                                     double ratio,
                                                     const std::vector<char>& wanted) const {
   constexpr double kSome = 0.2;  // of what the strip might bring at most
-  const Vec3 normal = mesh_.normal(side), centre = centre_of(triangle);
-  const double size = std::max(
-      {length(triangle[0] - centre), length(triangle[1] - centre), length(triangle[2] - centre)});
+  const Vec3 normal = mesh_.normal(side), centre = centre_of(part);
+  double size = 0.0;
+  for (const Vec3& c : part) size = std::max(size, length(c - centre));
   std::vector<Doubt> doubts;
   for (std::uint32_t e = 0; e < mesh_.size(); ++e) {
     if (e == side / 2 || outline_[e] == 0 ||
@@ -113,21 +129,24 @@ std::vector<TargetEdges::Doubt> TargetEdges::doubts(const Triangle& triangle, st
     const std::uint32_t seen =
         2 * e + (dot(centre - corner[0], mesh_.normal(2 * e)) < 0.0 ? 1U : 0U);
     if (!wanted[seen] || column_[seen] == kNoColumn) continue;
+    const double rises = greatest_height(corner, part[0], normal);
+    const double stands = greatest_height(part, corner[0], mesh_.normal(2 * e));
     for (unsigned k = 0; k < 3; ++k) {
       if ((outline_[e] >> k & 1U) == 0) continue;
       const Vec3 a = corner[k], b = corner[(k + 1) % 3];
-      const double distance = distance_to_edge(triangle, normal, a, b);
+      const double distance = distance_to_edge(part, normal, a, b);
       const double strip = distance > 1e-9 * radius_[e] ? distance : width_[e];
       const Vec3 to = nearest_on_edge(centre, a, b) - centre;
       Vec3 across = to - dot(to, normal) * normal;
       if (length(across) < 0.1 * length(to)) across = cross(normal, b - a);
       across = normalized(across);
-      const double extent = extent_along(triangle, across);
+      const double extent = extent_along(part, across);
       if (!(ratio * extent > strip)) continue;
-      const double at_most =
-          std::min(1.0, mesh_.area_m2(e) / (kPi * std::max(distance, 1e-300) * distance));
-      const double part = std::min(strip / extent, extent * extent / (strip * strip));
-      doubts.push_back({column_[seen], kSome * at_most * part, across});
+      const double near = std::max(distance, 1e-300);
+      const double at_most = std::min(1.0, mesh_.area_m2(e) / (kPi * near * near)) *
+                             std::min(1.0, rises / near) * std::min(1.0, stands / near);
+      const double missed = std::min(strip / extent, extent * extent / (strip * strip));
+      doubts.push_back({column_[seen], kSome * at_most * missed, across});
     }
   }
   return doubts;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "radiosity/element_mesh.h"
@@ -26,16 +27,16 @@ class TargetEdges {
   struct Doubt {
     Column column;
     double value;
-    Vec3 across;  ///< unit: from the triangle toward the edge, in the plane of the triangle
+    Vec3 across;  ///< unit: from the part toward the edge, in the plane of the part
   };
 
-  /// What the mean over a triangle may be wrong by, because of edges that it comes nearer to than
-  /// `ratio` times its extent: something may rise there from nothing to all in a strip as narrow as
-  /// the edge is near or, where it touches, as its element is narrow, and the strip may fall
-  /// between points of the triangle.
-  /// @param side    whose plane the triangle lies in
+  /// What the mean over a convex part of a surface may be wrong by, because of edges that it comes
+  /// nearer to than `ratio` times its extent: something may rise there from nothing to all in a
+  /// strip as narrow as the edge is near or, where it touches, as its element is narrow, and the
+  /// strip may fall between points of the triangle.
+  /// @param side    whose plane the part lies in
   /// @param wanted  [side]
-  std::vector<Doubt> doubts(const std::array<Vec3, 3>& triangle, std::uint32_t side, double ratio,
+  std::vector<Doubt> doubts(std::span<const Vec3> part, std::uint32_t side, double ratio,
                             const std::vector<char>& wanted) const;
 
  private:
