@@ -31,7 +31,10 @@ void VisiblePolygon::hide_behind(const ConvexPolygon& other) {
   const ConvexPolygon before = cut(other, [&](Vec3 p) { return 1.0 - dot(nearness_, p); });
   if (before.empty()) return;
   // The planes through edges look inward where the corners run counter-clockwise.
-  const Vec3 normal = cross(before[1] - before[0], before[2] - before[0]);
+  Vec3 normal{};
+  for (std::size_t k = 2; k < before.size(); ++k) {
+    normal = normal + cross(before[k - 1] - before[0], before[k] - before[0]);
+  }
   const double sense = dot(normal, before[0]) < 0.0 ? -1.0 : 1.0;
   next_.clear();
   for (const ConvexPolygon& piece : piece_) take_away(piece, before, sense);
