@@ -52,7 +52,9 @@ void VisiblePolygon::take_away(const ConvexPolygon& piece, const ConvexPolygon& 
   const std::size_t before = next_.size();
   ConvexPolygon rest = piece;
   for (std::size_t k = 0; k < other.size() && !rest.empty(); ++k) {
-    const Vec3 inward = sense * cross(other[k], other[k + 1 < other.size() ? k + 1 : 0]);
+    const Vec3 from = other[k], to = other[k + 1 < other.size() ? k + 1 : 0];
+    if (!(length(to - from) > kTouching * length(to))) continue;  // no plane: twice the same corner
+    const Vec3 inward = sense * cross(from, to);
     const ConvexPolygon outside = cut(rest, [&](Vec3 p) { return -dot(inward, p); });
     if (!outside.empty()) next_.push_back(outside);
     rest = cut(rest, [&](Vec3 p) { return dot(inward, p); });
