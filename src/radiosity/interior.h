@@ -1,0 +1,96 @@
+/// The light of a scene with all its reflections, by radiosity: the whole calculation.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/finding.h"
+#include "core/progress.h"
+#include "illuminance/sensor.h"
+#include "radiosity/daylight_sources.h"
+#include "radiosity/element_mesh.h"
+#include "radiosity/patch_rows.h"
+#include "radiosity/point_gather.h"
+#include "radiosity/progressive_refinement.h"
+#include "radiosity/side_points.h"
+#include "radiosity/surface_light.h"
+
+namespace tenku {
+
+struct InteriorOptions {
+  std::string form_factors = "hemisphere-rays";  ///< method
+  FormFactorOptions shot{.resolution = 64};      ///< of each element of a patch that shoots
+  int point_resolution = 48, sensor_resolution = 128;
+  double tolerance_pct = 2.0;
+  std::size_t most_shots = 0;  ///< 0: as many as it takes
+  std::size_t most_bytes = std::size_t{2} << 30U;  ///< of form factors that are kept
+  double lift_m = 1e-5;
+  std::function<void(const ShotView&)> watch;
+};
+
+/// Seconds of the stages.
+struct InteriorTimes {
+  double form_factors_s = 0.0, daylight_s = 0.0, solve_s = 0.0;
+};
+
+/// One light in the scene.
+///
+/// Units    lux, lm/m2.
+struct InteriorLight {
+  RefinementResult shots;
+  std::vector<Rgb> radiosity;    ///< [element side], after the last gather
+  SensorIlluminance points;      ///< [point of `SidePoints`], with the light from other sides as
+                                 ///< `reflected_lux`
+  std::vector<Rgb> reflected;    ///< [point], the same in channels
+  std::vector<std::uint8_t> is_lit;  ///< [point], whether any light reaches its side
+  std::vector<double> unsure;    ///< [element side], scale of the error of its radiosity, lm/m2
+  double convergence_lux = 0.0;  ///< bound on what light still under way brings anywhere
+  std::size_t sweeps = 0;
+  std::size_t out_of_tolerance = 0;  ///< points
+  std::vector<Finding> findings;
+};
+
+/// A mesh with its form factors: asked again for another light, it looks nowhere twice.
+///
+/// First patches shoot (`refine_progressively`), which settles where the light goes; then every
+/// corner of an element gathers what the sides send, sides send what their corners receive, and so
+/// on until that changes nothing: values that are continuous over each plane, and exact where
+/// everything is evenly lit.
+class Interior {
+ public:
+  /// @param mesh, materials  kept by reference
+  /// @throws InputError as `form_factor_method`
+  Interior(const ElementMesh& mesh, const std::vector<Material>& materials,
+           const InteriorOptions& options);
+
+  /// @param daylight  null: only emitting surfaces
+  /// @throws Cancelled
+  InteriorLight light(const DaylightMethod* daylight, Progress& progress);
+
+  /// Adds the light from sides to direct light on sensors.
+  void add_reflected(const Sensors& sensors, const InteriorLight& light, SensorIlluminance& values,
+                     Progress& progress) const;
+
+  const SidePoints& points() const { return points_; }
+  const SurfaceLight& surfaces() const { return surfaces_; }
+  const InteriorTimes& times() const { return times_; }
+
+ private:
+  std::vector<std::uint8_t> open_points(Progress& progress);
+  void sweep(const DaylightOnSides& direct, InteriorLight& light);
+
+  const ElementMesh& mesh_;
+  InteriorOptions options_;
+  std::vector<Finding> findings_;
+  SurfaceLight surfaces_;
+  SidePoints points_;
+  std::unique_ptr<FormFactorMethod> method_;
+  PatchRows rows_;
+  PointGather gather_;
+  InteriorTimes times_;
+};
+
+}  // namespace tenku

@@ -1,0 +1,55 @@
+/// Where what each patch sends arrives: rows of form factors, found when they are first asked for.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/extent.h"
+#include "core/progress.h"
+#include "radiosity/element_mesh.h"
+#include "radiosity/form_factor.h"
+#include "radiosity/form_factor_store.h"
+
+namespace tenku {
+
+/// What rows are found from, and where they are kept.
+struct PatchRowOptions {
+  double lift_m = 1e-5;                              ///< of points off their surface
+  std::size_t most_bytes = std::size_t{1} << 30U;    ///< of the rows kept
+};
+
+/// Rows of patch sides: the mean over the patch of the form factors of its points, one to an
+/// element, by their areas.
+///
+/// Rows that the memory does not hold are found again each time.
+class PatchRows {
+ public:
+  /// @param mesh, method  kept by reference
+  PatchRows(const ElementMesh& mesh, const FormFactorMethod& method, PatchRowOptions options);
+
+  /// Rows of these patch sides; good until the next call.
+  /// Same bits for any number of threads.
+  /// @throws Cancelled
+  std::vector<const FormFactorRow*> rows_of(std::span<const std::uint32_t> patch_sides,
+                                            const Progress& progress);
+
+  /// Rows that had to be found, in all, also those found again.
+  std::size_t found() const { return found_; }
+  const FormFactorStore& store() const { return store_; }
+
+ private:
+  FormFactorRow find(std::uint32_t patch_side) const;
+  bool faces_nothing(std::uint32_t patch_side) const;
+
+  const ElementMesh& mesh_;
+  const FormFactorMethod& method_;
+  PatchRowOptions options_;
+  Extent extent_;
+  FormFactorStore store_;
+  std::vector<FormFactorRow> passing_;  ///< of the last call, those that are not kept
+  std::size_t found_ = 0;
+};
+
+}  // namespace tenku
