@@ -46,8 +46,11 @@ struct FormFactorOptions {
   std::uint64_t seed = 1;     ///< of methods that sample
 };
 
+/// The names that `form_factor_method` knows.
+std::vector<std::string_view> form_factor_method_names();
+
 /// @param mesh  kept by reference
-/// @throws InputError for a name that no method has
+/// @throws InputError for a name that no method has, and for an option out of its range
 std::unique_ptr<FormFactorMethod> form_factor_method(std::string_view name, const ElementMesh& mesh,
                                                      const FormFactorOptions& options);
 
