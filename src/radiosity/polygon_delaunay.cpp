@@ -1,0 +1,191 @@
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <numbers>
+
+#include "radiosity/polygon_mesh.h"
+
+namespace tenku {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point2 = Kernel::Point_2;
+
+struct FaceInfo {
+  bool is_seen = false, is_inside = false;
+};
+
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>;
+using FaceBase = CGAL::Constrained_triangulation_face_base_2<
+    Kernel, CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel>>;
+using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
+using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<
+    Kernel, Structure, CGAL::No_constraint_intersection_requiring_constructions_tag>;
+
+// Points stand closer than the longest edge allowed, for those that are not in a regular place.
+constexpr double kSpacing = 0.8;
+// Of the spacing: nearer to the outline than this, points would make flat triangles with it.
+constexpr double kLeastFromOutline = 0.55;
+
+struct Segment {
+  PlanePoint a, b;
+};
+
+double distance(PlanePoint p, const Segment& s) {
+  const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y;
+  const double whole = dx * dx + dy * dy;
+  const double t =
+      whole > 0.0 ? std::clamp(((p.x - s.a.x) * dx + (p.y - s.a.y) * dy) / whole, 0.0, 1.0) : 0.0;
+  return std::hypot(p.x - s.a.x - t * dx, p.y - s.a.y - t * dy);
+}
+
+std::vector<Segment> outline_of(const FlatPolygon& polygon) {
+  std::vector<Segment> outline;
+  for (const auto& ring : polygon.rings) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      outline.push_back({polygon.flat(ring[i]), polygon.flat(ring[(i + 1) % ring.size()])});
+    }
+  }
+  return outline;
+}
+
+/// Where a level line enters and leaves the surface, in rising order.
+std::vector<double> crossings(const std::vector<Segment>& outline, double y) {
+  std::vector<double> at;
+  for (const auto& [a, b] : outline) {
+    if ((a.y <= y) == (b.y <= y)) continue;
+    at.push_back(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
+  }
+  std::sort(at.begin(), at.end());
+  return at;
+}
+
+/// Corners of equilateral triangles inside a polygon, clear of its outline.
+std::vector<PlanePoint> lattice(const std::vector<Segment>& outline, double spacing) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Segment& s : outline) low = std::min(low, s.a.y), high = std::max(high, s.a.y);
+  const double row_height = spacing * std::numbers::sqrt3 / 2.0;
+  const double rows = std::max(1.0, std::round((high - low) / row_height));
+  const double step = (high - low) / rows;
+  std::vector<PlanePoint> points;
+  for (double row = 1.0; row < rows; ++row) {
+    const double y = low + row * step;
+    const auto at = crossings(outline, y);
+    const double shift = std::fmod(row, 2.0) * 0.5;
+    for (std::size_t i = 0; i + 1 < at.size(); i += 2) {
+      for (double k = std::ceil(at[i] / spacing - shift); (k + shift) * spacing < at[i + 1]; ++k) {
+        const PlanePoint p{(k + shift) * spacing, y};
+        const bool is_clear = std::all_of(outline.begin(), outline.end(), [&](const Segment& s) {
+          return distance(p, s) >= kLeastFromOutline * spacing;
+        });
+        if (is_clear) points.push_back(p);
+      }
+    }
+  }
+  return points;
+}
+
+/// The mesh while it grows: vertices keep their place in space.
+class Builder {
+ public:
+  Builder(const FlatPolygon& polygon, double element_m)
+      : polygon_(polygon), element_m_(element_m) {}
+
+  PolygonMesh mesh() {
+    for (const auto& ring : polygon_.rings) add_ring(ring);
+    for (const PlanePoint p : lattice(outline_of(polygon_), kSpacing * element_m_)) add_inner(p);
+    mark_inside();
+    split_long_edges();
+    for (const auto face : mesh_.finite_face_handles()) {
+      if (!face->info().is_inside) continue;
+      made_.elements.push_back(
+          {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+    }
+    return std::move(made_);
+  }
+
+ private:
+  Delaunay::Vertex_handle add(Vec3 place) {
+    const PlanePoint p = polygon_.flat(place);
+    const std::size_t before = mesh_.number_of_vertices();
+    const auto vertex = mesh_.insert(Point2(p.x, p.y), hint_);
+    hint_ = vertex->face();
+    if (mesh_.number_of_vertices() > before) {
+      vertex->info() = static_cast<std::uint32_t>(made_.vertices.size());
+      made_.vertices.push_back(place);
+    }
+    return vertex;
+  }
+
+  void add_inner(PlanePoint p) { add(polygon_.lifted(p)); }
+
+  void add_ring(const std::vector<Vec3>& ring) {
+    std::vector<Delaunay::Vertex_handle> vertices;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vec3 from = ring[i], to = ring[(i + 1) % ring.size()];
+      const double n = std::max(1.0, std::ceil(length(to - from) / (kSpacing * element_m_)));
+      for (double k = 0.0; k < n; ++k) vertices.push_back(add(from + (k / n) * (to - from)));
+    }
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const auto a = vertices[i], b = vertices[(i + 1) % vertices.size()];
+      if (a != b) mesh_.insert_constraint(a, b);
+    }
+  }
+
+  /// By the odd-even rule.
+  void mark_inside() {
+    std::deque<Delaunay::Face_handle> queue{mesh_.infinite_face()};
+    mesh_.infinite_face()->info() = {true, false};
+    while (!queue.empty()) {
+      const Delaunay::Face_handle face = queue.front();
+      queue.pop_front();
+      for (int i = 0; i < 3; ++i) {
+        const Delaunay::Face_handle next = face->neighbor(i);
+        if (next->info().is_seen) continue;
+        next->info() = {true, face->info().is_inside != mesh_.is_constrained({face, i})};
+        queue.push_back(next);
+      }
+    }
+  }
+
+  void split_long_edges() {
+    for (bool is_done = false; !is_done;) {
+      std::vector<PlanePoint> middles;
+      for (const auto face : mesh_.finite_face_handles()) {
+        if (!face->info().is_inside) continue;
+        for (int i = 0; i < 3; ++i) {
+          const Point2 &a = face->vertex(mesh_.cw(i))->point(),
+                       &b = face->vertex(mesh_.ccw(i))->point();
+          if (mesh_.is_constrained({face, i}) || face->neighbor(i) < face) continue;
+          const double length = std::hypot(a.x() - b.x(), a.y() - b.y());
+          if (length > element_m_) middles.push_back({(a.x() + b.x()) / 2, (a.y() + b.y()) / 2});
+        }
+      }
+      for (const PlanePoint p : middles) add_inner(p);
+      is_done = middles.empty();
+      if (is_done) break;
+      for (const auto face : mesh_.all_face_handles()) face->info() = {};
+      mark_inside();
+    }
+  }
+
+  const FlatPolygon& polygon_;
+  double element_m_;
+  Delaunay mesh_;
+  Delaunay::Face_handle hint_;
+  PolygonMesh made_;
+};
+
+}  // namespace
+
+PolygonMesh delaunay_mesh(const FlatPolygon& polygon, double element_m) {
+  return Builder(polygon, element_m).mesh();
+}
+
+}  // namespace tenku
