@@ -58,14 +58,17 @@ void CsvTable::end_row() {
 void CsvTable::write(const std::filesystem::path& path) const { write_whole_file(path, text_); }
 
 CsvTable illuminance_table(std::span<const Vec3> positions, std::span<const Vec3> normals,
-                           const SensorIlluminance& results) {
+                           const SensorIlluminance& results,
+                           const std::pair<std::string, std::vector<double>>& more) {
   expects(positions.size() == results.size() && normals.size() == results.size(),
           "each sensor has a position, a normal and a result");
-  CsvTable table(kIlluminanceHeader);
+  const auto& [name, values] = more;
+  CsvTable table(std::string(kIlluminanceHeader) + (name.empty() ? "" : "," + name));
   for (std::size_t i = 0; i < results.size(); ++i) {
     for (const Vec3 v : {positions[i], normals[i]}) table.add(v.x).add(v.y).add(v.z);
     table.add(results.sun_lux[i]).add(results.sky_lux[i]).add(results.reflected_lux[i]);
     table.add(results.total_lux(i)).add(results.error_lux[i]).add(results.sky_view[i]);
+    if (!name.empty()) table.add(values[i]);
     table.end_row();
   }
   return table;

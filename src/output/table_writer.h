@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/vec3.h"
@@ -52,7 +53,9 @@ inline constexpr std::string_view kIlluminanceHeader =
 /// Table of `results` on sensors, in their order.
 ///
 /// @param positions, normals  as the user gave them, in the coordinates of the scene file
+/// @param more  a last column: its name and its values [sensor]; none if the name is empty
 CsvTable illuminance_table(std::span<const Vec3> positions, std::span<const Vec3> normals,
-                           const SensorIlluminance& results);
+                           const SensorIlluminance& results,
+                           const std::pair<std::string, std::vector<double>>& more = {});
 
 }  // namespace tenku

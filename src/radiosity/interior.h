@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "illuminance/sensor.h"
 #include "radiosity/daylight_sources.h"
 #include "radiosity/element_mesh.h"
+#include "radiosity/emitter_light.h"
 #include "radiosity/patch_rows.h"
 #include "radiosity/point_gather.h"
 #include "radiosity/progressive_refinement.h"
@@ -25,7 +28,7 @@ struct InteriorOptions {
   FormFactorOptions shot{.resolution = 64};      ///< of each element of a patch that shoots
   int point_resolution = 48, sensor_resolution = 128;
   double tolerance_pct = 2.0;
-  std::size_t most_shots = 0;  ///< 0: as many as it takes
+  std::size_t most_shots = 0;                      ///< 0: as many as it takes
   std::size_t most_bytes = std::size_t{2} << 30U;  ///< of form factors that are kept
   double lift_m = 1e-5;
   std::function<void(const ShotView&)> watch;
@@ -41,13 +44,13 @@ struct InteriorTimes {
 /// Units    lux, lm/m2.
 struct InteriorLight {
   RefinementResult shots;
-  std::vector<Rgb> radiosity;    ///< [element side], after the last gather
-  SensorIlluminance points;      ///< [point of `SidePoints`], with the light from other sides as
-                                 ///< `reflected_lux`
-  std::vector<Rgb> reflected;    ///< [point], the same in channels
+  std::vector<Rgb> radiosity;  ///< [element side], after the last gather
+  SensorIlluminance points;    ///< [point of `SidePoints`], with the light from other sides as
+                               ///< `reflected_lux`
+  std::vector<Rgb> reflected;  ///< [point], the same in channels
   std::vector<std::uint8_t> is_lit;  ///< [point], whether any light reaches its side
-  std::vector<double> unsure;    ///< [element side], scale of the error of its radiosity, lm/m2
-  double convergence_lux = 0.0;  ///< bound on what light still under way brings anywhere
+  std::vector<double> unsure;        ///< [element side], scale of the error of its radiosity, lm/m2
+  double convergence_lux = 0.0;      ///< bound on what light still under way brings anywhere
   std::size_t sweeps = 0;
   std::size_t out_of_tolerance = 0;  ///< points
   std::vector<Finding> findings;
@@ -80,6 +83,13 @@ class Interior {
 
  private:
   std::vector<std::uint8_t> open_points(Progress& progress);
+  /// What bright emitting patches give to points without a reflection.
+  std::vector<EmitterLight::Direct> straight(const Sensors& sensors,
+                                             std::span<const std::uint8_t> is_wanted,
+                                             int rays) const;
+  /// What the other emitting patches of its row give to a point.
+  Rgb left_to_row(const EmitterLight::Direct& straight, const FormFactorRow& row) const;
+  std::vector<Rgb> without_emission(std::span<const Rgb> radiosity) const;
   void sweep(const DaylightOnSides& direct, InteriorLight& light);
 
   const ElementMesh& mesh_;
@@ -90,6 +100,7 @@ class Interior {
   std::unique_ptr<FormFactorMethod> method_;
   PatchRows rows_;
   PointGather gather_;
+  EmitterLight emitters_;
   InteriorTimes times_;
 };
 

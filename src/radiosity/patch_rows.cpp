@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "core/stopwatch.h"
 
 namespace tenku {
 namespace {
@@ -49,6 +50,7 @@ std::vector<const FormFactorRow*> PatchRows::rows_of(std::span<const std::uint32
   for (const std::uint32_t side : patch_sides) {
     if (store_.find(side) == nullptr) missing.push_back(side);
   }
+  const Stopwatch watch;
   std::vector<FormFactorRow> fresh(missing.size());
   parallel_for(missing.size(), 1, [&](IndexRange range) {
     for (std::size_t k = range.begin; k < range.end; ++k) {
@@ -57,6 +59,7 @@ std::vector<const FormFactorRow*> PatchRows::rows_of(std::span<const std::uint32
     }
   });
   found_ += missing.size();
+  seconds_ += watch.seconds();
   passing_.clear();
   passing_.reserve(missing.size());  // pointers into it stay good
   std::vector<const FormFactorRow*> rows;

@@ -16,8 +16,8 @@ namespace tenku {
 
 /// What rows are found from, and where they are kept.
 struct PatchRowOptions {
-  double lift_m = 1e-5;                              ///< of points off their surface
-  std::size_t most_bytes = std::size_t{1} << 30U;    ///< of the rows kept
+  double lift_m = 1e-5;                            ///< of points off their surface
+  std::size_t most_bytes = std::size_t{1} << 30U;  ///< of the rows kept
 };
 
 /// Rows of patch sides: the mean over the patch of the form factors of its points, one to an
@@ -37,6 +37,7 @@ class PatchRows {
 
   /// Rows that had to be found, in all, also those found again.
   std::size_t found() const { return found_; }
+  double seconds() const { return seconds_; }  ///< that it took
   const FormFactorStore& store() const { return store_; }
 
  private:
@@ -50,6 +51,7 @@ class PatchRows {
   FormFactorStore store_;
   std::vector<FormFactorRow> passing_;  ///< of the last call, those that are not kept
   std::size_t found_ = 0;
+  double seconds_ = 0.0;
 };
 
 }  // namespace tenku

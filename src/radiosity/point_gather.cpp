@@ -9,7 +9,7 @@
 namespace tenku {
 namespace {
 
-constexpr std::size_t kGrain = 8;      // points a task
+constexpr std::size_t kGrain = 8;     // points a task
 constexpr std::size_t kChunk = 8192;  // rows between two looks at the memory
 constexpr std::uint64_t kSecondSeed = 0x9e3779b97f4a7c15U;
 

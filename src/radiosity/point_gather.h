@@ -49,9 +49,9 @@ class PointGather {
                             std::span<const std::uint8_t> is_wanted) const;
 
   /// Calls `use(point, look, row)` for the wanted points, on many threads.
-  void for_rows(std::span<const std::uint8_t> is_wanted,
-                const std::function<void(std::size_t, std::size_t, const FormFactorRow&)>& use)
-      const;
+  void for_rows(
+      std::span<const std::uint8_t> is_wanted,
+      const std::function<void(std::size_t, std::size_t, const FormFactorRow&)>& use) const;
 
   std::size_t bytes() const { return store_.bytes(); }
   std::size_t refused() const { return refused_; }

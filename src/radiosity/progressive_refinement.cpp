@@ -31,8 +31,7 @@ class Refinement {
     for (std::uint32_t s = 0; s < unshot_lm_.size(); ++s) {
       if (unshot_lm_[s] > 0.0) order_.push_back(s);
     }
-    const auto last = order_.begin() +
-                      static_cast<std::ptrdiff_t>(std::min(kBatch, order_.size()));
+    const auto last = order_.begin() + static_cast<std::ptrdiff_t>(std::min(kBatch, order_.size()));
     std::partial_sort(order_.begin(), last, order_.end(), [&](std::uint32_t a, std::uint32_t b) {
       return unshot_lm_[a] != unshot_lm_[b] ? unshot_lm_[a] > unshot_lm_[b] : a < b;
     });
@@ -60,9 +59,7 @@ class Refinement {
   }
 
   /// Sums anew what shots have changed bit by bit.
-  void settle() {
-    total_unshot_lm_ = std::accumulate(unshot_lm_.begin(), unshot_lm_.end(), 0.0);
-  }
+  void settle() { total_unshot_lm_ = std::accumulate(unshot_lm_.begin(), unshot_lm_.end(), 0.0); }
 
   double left_lm() const { return total_unshot_lm_ / (1.0 - surfaces_.most_reflectance); }
   bool is_within(double tolerance) const { return left_lm() <= tolerance * received_lm_; }

@@ -18,7 +18,7 @@ namespace tenku {
 struct SidePoints {
   static constexpr double kDrawnBack = 0.02;
 
-  Sensors sensors;                                  ///< on the surface, not lifted
+  Sensors sensors;                                   ///< on the surface, not lifted
   std::vector<std::array<std::uint32_t, 3>> corner;  ///< [element side], of `sensors`
   std::vector<std::uint32_t> plane;  ///< [point], equal for points of connected elements of a plane
   std::uint32_t planes = 0;

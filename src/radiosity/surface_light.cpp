@@ -19,7 +19,8 @@ Finding mirrors_found(std::size_t count, const std::string& name) {
   finding.code = "mirror_as_diffuse";
   finding.severity = Severity::Note;
   finding.object = name;
-  finding.what = "radiosity knows diffuse surfaces only: the mirror reflects as much, but diffusely";
+  finding.what =
+      "radiosity knows diffuse surfaces only: the mirror reflects as much, but diffusely";
   finding.repair = "tenku reflections, or tenku render, follow mirrors";
   finding.count = count;
   return finding;
@@ -38,6 +39,7 @@ SurfaceLight surface_light(const ElementMesh& mesh, const std::vector<Material>&
     light.area_m2.push_back(mesh.area_m2(e));
     light.reflectance.push_back(rho);
     light.emission_lm_m2.push_back(material.emission_lm_m2);
+    light.any_emits |= light.emits(e);
     light.most_reflectance = std::max({light.most_reflectance, rho.r, rho.g, rho.b});
   }
   if (!mirrors.empty()) {

@@ -19,6 +19,7 @@ struct SurfaceLight {
   std::vector<Rgb> reflectance;     ///< diffuse; a mirror's share is counted as diffuse
   std::vector<Rgb> emission_lm_m2;  ///< of each side
   double most_reflectance = 0.0;    ///< of all channels and elements
+  bool any_emits = false;
 
   bool emits(std::size_t element) const { return luminance_of(emission_lm_m2[element]) > 0.0; }
 };

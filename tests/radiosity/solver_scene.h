@@ -30,7 +30,8 @@ class SolverScene {
   }
 
   /// Parallelogram a, b, c, d in n x m patches; the front is where it runs counter-clockwise.
-  void quad(std::array<Vec3, 4> corner, std::array<std::uint32_t, 2> cells, std::uint32_t material) {
+  void quad(std::array<Vec3, 4> corner, std::array<std::uint32_t, 2> cells,
+            std::uint32_t material) {
     const auto [n, m] = cells;
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     const Vec3 a = corner[0], along = corner[1] - corner[0], up = corner[3] - corner[0];
