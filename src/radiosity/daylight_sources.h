@@ -20,13 +20,13 @@ namespace tenku {
 struct DaylightOnSides {
   SensorIlluminance points;        ///< [point] of the corners; nothing of it is reflected
   std::vector<double> lux;         ///< [element side], mean over it
-  std::vector<double> uneven_lux;  ///< [element side], middle less mean of the corners, absolute
+  std::vector<double> middle_lux;  ///< [element side]
   std::uint64_t rays = 0;
   std::size_t sensors = 0, out_of_tolerance = 0;
   std::vector<Finding> findings;
 
   DaylightOnSides(std::size_t point_count, std::size_t sides)
-      : points(point_count), lux(sides), uneven_lux(sides) {}
+      : points(point_count), lux(sides), middle_lux(sides) {}
 };
 
 /// How direct light is found.

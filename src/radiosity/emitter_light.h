@@ -4,69 +4,79 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/rgb.h"
 #include "radiosity/element_mesh.h"
-#include "radiosity/form_factor.h"
+#include "radiosity/side_points.h"
 #include "radiosity/surface_light.h"
 #include "scene/triangle_soup.h"
 #include "visibility/ray_visibility.h"
 
 namespace tenku {
 
-/// Bright patches seen from a point: a lamp is small, and rows of form factors see small things
-/// roughly. The form factor of the whole patch is exact (`contour_factor`); rays to its strata
-/// tell how much of it is seen.
+/// Lamps seen from a point: they are small, and rows of form factors see small things roughly. The
+/// form factor of a whole lamp is exact (`contour_factor`); rays to it tell how much of it is seen.
 ///
-/// Patches that give less than kBright of the light of all at a point are left to its row, and so
-/// are all patches where more than kMostEmitters shine.
+/// A lamp is what shines in one plane without a gap. Lamps that give less than kFaint of the light
+/// of all at a point are left to its row; so are all where they would fill most of its view, and
+/// where more than kMostLamps shine.
 ///
 /// Error    rays that agree, hidden or seen, are believed. Otherwise the shadow's edge crosses
-///          about sqrt(n) of n strata, each with a variance of at most 1/6 of its square, taken
-///          together: 0.19 / n^1.5 of the patch's light squared.
+///          about sqrt(n) of n parts of the lamp, each with a variance of at most 1/6 of its
+///          square: 0.19 / n^1.5 of the lamp's light squared in all. Rays are added until that is
+///          kSettled of the light.
 /// Threads  immutable after construction; may be shared.
 class EmitterLight {
  public:
-  static constexpr double kBright = 0.015;
-  static constexpr std::size_t kMostEmitters = 512;  ///< patch sides
+  static constexpr double kFaint = 0.015, kMostView = 0.6, kSettled = 0.001;
+  static constexpr std::size_t kMostLamps = 512;
 
-  /// @param mesh, surfaces  kept by reference
-  EmitterLight(const ElementMesh& mesh, const SurfaceLight& surfaces, std::uint64_t seed);
+  /// @param mesh  kept by reference
+  EmitterLight(const ElementMesh& mesh, const SidePoints& points, const SurfaceLight& surfaces,
+               std::uint64_t seed);
 
-  /// What a point receives straight from emitting surfaces.
+  /// What a point receives straight from lamps.
   struct Direct {
     Rgb lux;
-    double variance = 0.0;              ///< lux^2, by luminance
-    std::vector<std::uint32_t> bright;  ///< patches that are in `lux`, in rising order
+    double variance = 0.0;            ///< lux^2, by luminance
+    std::vector<std::uint32_t> lamp;  ///< those in `lux`, in rising order
 
-    /// Whether the emission of this element side is in `lux`.
-    bool has(std::uint32_t patch) const;
+    bool has(std::uint32_t one) const;
   };
   /// @param position  lifted
-  /// @param rays      to a patch that is seen in part; a square number
+  /// @param rays      at most, to a lamp that is seen in part
   Direct at(Vec3 position, Vec3 normal, int rays) const;
 
-  bool is_any() const { return !patch_.empty(); }
-  std::uint32_t patch_of(std::uint32_t element) const { return patch_of_[element]; }
+  bool is_any() const { return !lamp_.empty(); }
+  /// Number of the lamp that an element is a part of, or `kNoLamp`.
+  std::uint32_t lamp_of(std::size_t element) const { return lamp_of_[element]; }
+  static constexpr std::uint32_t kNoLamp = ~0U;
 
  private:
-  struct Emitter {
-    std::uint32_t patch;
+  struct Lamp {
+    std::vector<std::uint32_t> element;
+    std::vector<double> area_to;  ///< [element], of all up to it, m2
     Vec3 centre, normal;
-    double area_m2, radius_m;
+    double radius_m = 0.0;
     Rgb exitance;
+
+    double area_m2() const { return area_to.back(); }
   };
-  double factor(const Emitter& emitter, Vec3 position, Vec3 normal) const;
-  double seen(const Emitter& emitter, Vec3 position, Vec3 normal, int rays) const;
+  void find_lamps(const SidePoints& points, const SurfaceLight& surfaces);
+  double rough_factor(const Lamp& lamp, Vec3 position, Vec3 normal) const;
+  double factor(const Lamp& lamp, Vec3 position, Vec3 normal) const;
+  double seen(std::uint32_t lamp, Vec3 position, Vec3 normal, int rays) const;
+  bool hides(std::uint32_t element, std::uint32_t lamp, Vec3 point, double away) const;
 
   const ElementMesh& mesh_;
   std::uint64_t seed_;
   TriangleSoup soup_;
   std::vector<Material> materials_{1};
   std::unique_ptr<RayVisibility> rays_;
-  std::vector<Emitter> patch_;
-  std::vector<std::uint32_t> patch_of_;  ///< [element]
+  std::vector<Lamp> lamp_;
+  std::vector<std::uint32_t> lamp_of_;  ///< [element]
 };
 
 }  // namespace tenku

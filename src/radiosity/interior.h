@@ -12,6 +12,7 @@
 #include "core/finding.h"
 #include "core/progress.h"
 #include "illuminance/sensor.h"
+#include "radiosity/corner_solution.h"
 #include "radiosity/daylight_sources.h"
 #include "radiosity/element_mesh.h"
 #include "radiosity/emitter_light.h"
@@ -44,15 +45,10 @@ struct InteriorTimes {
 /// Units    lux, lm/m2.
 struct InteriorLight {
   RefinementResult shots;
-  std::vector<Rgb> radiosity;  ///< [element side], after the last gather
-  SensorIlluminance points;    ///< [point of `SidePoints`], with the light from other sides as
-                               ///< `reflected_lux`
-  std::vector<Rgb> reflected;  ///< [point], the same in channels
-  std::vector<std::uint8_t> is_lit;  ///< [point], whether any light reaches its side
-  std::vector<double> unsure;        ///< [element side], scale of the error of its radiosity, lm/m2
-  double convergence_lux = 0.0;      ///< bound on what light still under way brings anywhere
-  std::size_t sweeps = 0;
-  std::size_t out_of_tolerance = 0;  ///< points
+  CornerLight corners;
+  SensorIlluminance points;  ///< [point of `SidePoints`], with the light from other sides as
+                             ///< `reflected_lux`
+  std::vector<std::uint8_t> is_lit;  ///< [point], whether any light reaches its plane
   std::vector<Finding> findings;
 };
 
@@ -83,14 +79,6 @@ class Interior {
 
  private:
   std::vector<std::uint8_t> open_points(Progress& progress);
-  /// What bright emitting patches give to points without a reflection.
-  std::vector<EmitterLight::Direct> straight(const Sensors& sensors,
-                                             std::span<const std::uint8_t> is_wanted,
-                                             int rays) const;
-  /// What the other emitting patches of its row give to a point.
-  Rgb left_to_row(const EmitterLight::Direct& straight, const FormFactorRow& row) const;
-  std::vector<Rgb> without_emission(std::span<const Rgb> radiosity) const;
-  void sweep(const DaylightOnSides& direct, InteriorLight& light);
 
   const ElementMesh& mesh_;
   InteriorOptions options_;

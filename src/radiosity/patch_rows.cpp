@@ -38,11 +38,8 @@ PatchRows::PatchRows(const ElementMesh& mesh, const FormFactorMethod& method,
     : mesh_(mesh),
       method_(method),
       options_(options),
-      store_(2 * mesh.patches(), options.most_bytes) {
-  for (const auto& corners : mesh.elements) {
-    for (const std::uint32_t v : corners) extent_.add(mesh.vertices[v]);
-  }
-}
+      outward_(mesh, options.lift_m),
+      store_(2 * mesh.patches(), options.most_bytes) {}
 
 std::vector<const FormFactorRow*> PatchRows::rows_of(std::span<const std::uint32_t> patch_sides,
                                                      const Progress& progress) {
@@ -79,25 +76,20 @@ std::vector<const FormFactorRow*> PatchRows::rows_of(std::span<const std::uint32
   return rows;
 }
 
-bool PatchRows::faces_nothing(std::uint32_t patch_side) const {
-  const std::size_t element = mesh_.patch_begin[patch_side / 2];
-  const Vec3 normal = mesh_.normal(2 * element + patch_side % 2);
-  const Vec3 farthest{normal.x > 0.0 ? extent_.max.x : extent_.min.x,
-                      normal.y > 0.0 ? extent_.max.y : extent_.min.y,
-                      normal.z > 0.0 ? extent_.max.z : extent_.min.z};
-  return !(dot(normal, farthest - mesh_.centre(element)) > options_.lift_m);
-}
-
 FormFactorRow PatchRows::find(std::uint32_t patch_side) const {
-  if (faces_nothing(patch_side)) return {};
-  const std::size_t patch = patch_side / 2;
-  const double area = mesh_.patch_area_m2(patch);
+  const std::size_t first = mesh_.patch_begin[patch_side / 2],
+                    end = mesh_.patch_begin[patch_side / 2 + 1], count = end - first;
+  const std::size_t points = std::min(count, kMostPoints);
   std::vector<std::pair<double, FormFactorRow>> parts;
-  for (std::size_t e = mesh_.patch_begin[patch]; e < mesh_.patch_begin[patch + 1]; ++e) {
-    const Vec3 normal = mesh_.normal(2 * e + patch_side % 2);
-    parts.emplace_back(mesh_.area_m2(e) / area,
-                       method_.from_point(mesh_.centre(e) + options_.lift_m * normal, normal));
+  double area = 0.0;
+  for (std::size_t k = 0; k < points; ++k) {
+    const std::size_t e = first + (2 * k + 1) * count / (2 * points);  // spread over the patch
+    const Vec3 normal = mesh_.normal(2 * e + patch_side % 2), at = mesh_.centre(e);
+    if (k == 0 && outward_.faces_nothing(at, normal)) return {};
+    area += mesh_.area_m2(e);
+    parts.emplace_back(mesh_.area_m2(e), method_.from_point(at + options_.lift_m * normal, normal));
   }
+  for (auto& [weight, row] : parts) weight /= area;
   return mean_of(std::move(parts));
 }
 

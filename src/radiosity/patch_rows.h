@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "core/extent.h"
 #include "core/progress.h"
 #include "radiosity/element_mesh.h"
 #include "radiosity/form_factor.h"
 #include "radiosity/form_factor_store.h"
+#include "radiosity/outward_view.h"
 
 namespace tenku {
 
@@ -20,12 +20,14 @@ struct PatchRowOptions {
   std::size_t most_bytes = std::size_t{1} << 30U;  ///< of the rows kept
 };
 
-/// Rows of patch sides: the mean over the patch of the form factors of its points, one to an
-/// element, by their areas.
+/// Rows of patch sides: the mean over the patch of the form factors of up to kMostPoints points,
+/// the middles of elements spread over it, by their areas.
 ///
 /// Rows that the memory does not hold are found again each time.
 class PatchRows {
  public:
+  static constexpr std::size_t kMostPoints = 4;
+
   /// @param mesh, method  kept by reference
   PatchRows(const ElementMesh& mesh, const FormFactorMethod& method, PatchRowOptions options);
 
@@ -42,12 +44,11 @@ class PatchRows {
 
  private:
   FormFactorRow find(std::uint32_t patch_side) const;
-  bool faces_nothing(std::uint32_t patch_side) const;
 
   const ElementMesh& mesh_;
   const FormFactorMethod& method_;
   PatchRowOptions options_;
-  Extent extent_;
+  OutwardView outward_;
   FormFactorStore store_;
   std::vector<FormFactorRow> passing_;  ///< of the last call, those that are not kept
   std::size_t found_ = 0;

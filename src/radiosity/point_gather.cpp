@@ -17,7 +17,10 @@ constexpr std::uint64_t kSecondSeed = 0x9e3779b97f4a7c15U;
 
 PointGather::PointGather(const ElementMesh& mesh, const Sensors& points,
                          const PointGatherOptions& options)
-    : points_(points), lift_m_(options.lift_m), store_(kLooks * points.size(), options.most_bytes) {
+    : points_(points),
+      lift_m_(options.lift_m),
+      outward_(mesh, options.lift_m),
+      store_(kLooks * points.size(), options.most_bytes) {
   FormFactorOptions half = options.form_factors;
   half.resolution = std::max(
       2, static_cast<int>(std::lround(half.resolution / std::sqrt(static_cast<double>(kLooks)))));
@@ -31,6 +34,7 @@ PointGather::PointGather(const ElementMesh& mesh, const Sensors& points,
 
 FormFactorRow PointGather::find(std::size_t point, std::size_t look) const {
   const Vec3 normal = points_.normal[point];
+  if (outward_.faces_nothing(points_.position[point], normal)) return {};
   return method_[look]->from_point(points_.position[point] + lift_m_ * normal, normal);
 }
 

@@ -16,6 +16,7 @@
 #include "radiosity/element_mesh.h"
 #include "radiosity/form_factor.h"
 #include "radiosity/form_factor_store.h"
+#include "radiosity/outward_view.h"
 
 namespace tenku {
 
@@ -61,6 +62,7 @@ class PointGather {
 
   const Sensors& points_;
   double lift_m_;
+  OutwardView outward_;
   std::array<std::unique_ptr<FormFactorMethod>, kLooks> method_;
   FormFactorStore store_;  ///< [look of point]
   std::size_t refused_ = 0;

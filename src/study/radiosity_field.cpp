@@ -92,7 +92,7 @@ class FieldPoints {
       const Rgb direct = Rgb::grey(light_.points.sun_lux[point] + light_.points.sky_lux[point]);
       radiosity_.push_back(interior_.surfaces().emission_lm_m2[side / 2] +
                            interior_.surfaces().reflectance[side / 2] *
-                               (direct + light_.reflected[point]));
+                               (direct + light_.corners.lux[point]));
     }
     field.add_polygon(facing(ids, side));
   }
@@ -141,7 +141,7 @@ FieldMesh field_of_radiosity(const LitScene& lit, const ElementMesh& mesh, const
       if (light.is_lit[interior.points().corner[s][0]] == 0) continue;
       const std::size_t e = s / 2;
       points.add(field, s, lit.rays().lift_m());
-      radiosity.values.push_back(luminance_of(light.radiosity[s]));
+      radiosity.values.push_back(luminance_of(light.corners.radiosity[s]));
       unshot.values.push_back(luminance_of(light.shots.sides.unshot[s]));
       patch.codes.push_back(static_cast<std::int32_t>(p));
       face.codes.push_back(static_cast<std::int32_t>(s % 2));

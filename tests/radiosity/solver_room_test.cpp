@@ -20,7 +20,7 @@ TEST(Radiosity, InAWhiteFurnaceIsTheGeometricSeries) {
     scene.room({4, 5, 2.7}, {wall, wall, wall, wall, wall, wall}, 1.0);
     const InteriorLight light = scene.light();
     for (std::size_t side = 0; side < scene.mesh.sides(); side += 2) {
-      const double radiosity = luminance_of(light.radiosity[side]);
+      const double radiosity = luminance_of(light.corners.radiosity[side]);
       worst.add(radiosity * (1.0 - rho) / 100.0 - 1.0, std::to_string(rho));
     }
     testing_support::expect_balanced(light.shots.balance);
@@ -53,7 +53,7 @@ TEST(Radiosity, OfClosedRoomsIsTheContinuousSolution) {
                         wall = scene.grey(table.number(row, "rho_walls"));
     const Vec3 size{table.number(row, "width"), table.number(row, "depth"),
                     table.number(row, "height")};
-    scene.room(size, {floor, ceiling, wall, wall, wall, wall}, 12.0 / size.x);
+    scene.room(size, {floor, ceiling, wall, wall, wall, wall}, 16.0 / size.x);
     Progress quiet;
     Interior interior(scene.mesh, scene.materials, {});
     const InteriorLight light = interior.light(nullptr, quiet);

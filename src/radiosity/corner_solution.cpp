@@ -1,0 +1,253 @@
+#include "radiosity/corner_solution.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/parallel.h"
+
+namespace tenku {
+namespace {
+
+constexpr std::size_t kMostSweeps = 100, kGrain = 16;
+constexpr int kLampRays = 64;        // to a lamp that a corner sees in part
+constexpr double kDarkShare = 0.01;  // of the brightest corner: less is inside of something
+constexpr double kNear = 0.3, kWideView = 0.03, kDoubt = 0.05;
+
+double lum(Rgb c) { return luminance_of(c); }
+
+/// Corners of a side that are not inside of something, by what they gather.
+class OpenCorners {
+ public:
+  OpenCorners(const std::array<std::uint32_t, 3>& corner, std::span<const Rgb> gathered)
+      : corner_(corner) {
+    double most = 0.0;
+    for (const std::uint32_t i : corner) most = std::max(most, lum(gathered[i]));
+    for (std::size_t k = 0; k < 3; ++k) {
+      is_open_[k] = lum(gathered[corner[k]]) >= kDarkShare * most;
+      count_ += is_open_[k];
+    }
+  }
+  bool all() const { return count_ == 3; }
+
+  template <class At>
+  auto mean(const At& at) const {
+    decltype(at(0U)) sum{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (is_open_[k]) sum = sum + (1.0 / count_) * at(corner_[k]);
+    }
+    return sum;
+  }
+
+ private:
+  std::array<std::uint32_t, 3> corner_;
+  std::array<bool, 3> is_open_{};
+  int count_ = 0;
+};
+
+class CornerSolver {
+ public:
+  CornerSolver(const CornerProblem& problem, const PointGather& gather, std::span<const Rgb> start,
+               std::span<const std::uint8_t> is_lit)
+      : problem_(problem), gather_(gather), is_lit_(is_lit) {
+    light_.radiosity.assign(start.begin(), start.end());
+    light_.lux.resize(is_lit.size());
+    find_lamps();
+  }
+
+  CornerLight solve(const Progress& progress) {
+    do {
+      progress.stop_if_cancelled();
+      sweep();
+    } while (!is_enough());
+    find_errors();
+    return std::move(light_);
+  }
+
+ private:
+  void find_lamps() {
+    const auto& [mesh, surfaces, points, lamps, daylight, lift_m, enough] = problem_;
+    emitted_.resize(points.size());
+    middle_.resize(mesh.sides());
+    has_middle_.assign(mesh.sides(), 1);
+    known_ = light_of_lamps(lamps, points.sensors, is_lit_, lift_m, kLampRays);
+    if (!surfaces.any_emits) return;
+    gather_.for_rows(is_lit_, [&](std::size_t i, std::size_t look, const FormFactorRow& row) {
+      emitted_[i][look] = emission_left_to_row(surfaces, lamps, known_[i], row);
+    });
+    if (!lamps.is_any()) return;
+    parallel_for(mesh.sides(), kGrain, [&](IndexRange range) {
+      for (std::size_t s = range.begin; s < range.end; ++s) {
+        if (is_lit_[points.corner[s][0]] == 0) continue;
+        const Vec3 normal = mesh.normal(s);
+        const auto middle = lamps.at(mesh.centre(s / 2) + lift_m * normal, normal, kLampRays);
+        middle_[s] = middle.lux;
+        for (const std::uint32_t i : points.corner[s])
+          has_middle_[s] &= known_[i].lamp == middle.lamp;
+      }
+    });
+  }
+
+  void sweep() {
+    const SurfaceLight& surfaces = problem_.surfaces;
+    looks_ = gather_.gather(reflected_part(surfaces, light_.radiosity), is_lit_);
+    change_ = 0.0;
+    gathered_.resize(looks_.size());
+    for (std::size_t i = 0; i < looks_.size(); ++i) {
+      for (std::size_t k = 0; k < PointGather::kLooks; ++k) {
+        looks_[i][k] = looks_[i][k] + emitted_[i][k];
+      }
+      gathered_[i] = mean_of(looks_[i]);
+      const Rgb now = gathered_[i] + known_[i].lux;
+      change_ = std::max(change_, std::abs(lum(now) - lum(light_.lux[i])));
+      light_.lux[i] = now;
+    }
+    for (std::size_t s = 0; s < light_.radiosity.size(); ++s) {
+      if (is_lit_[problem_.points.corner[s][0]] == 0) continue;
+      light_.radiosity[s] =
+          surfaces.emission_lm_m2[s / 2] + surfaces.reflectance[s / 2] * mean_lux(s);
+    }
+    const double rho = surfaces.most_reflectance;
+    light_.convergence_lux = rho / (1.0 - rho) * change_;
+    ++light_.sweeps;
+  }
+
+  Rgb mean_lux(std::size_t side) const {
+    const DaylightOnSides& daylight = problem_.daylight;
+    const OpenCorners corners(problem_.points.corner[side], gathered_);
+    const Rgb at_corners = corners.mean([&](std::uint32_t i) { return steady(i); });
+    const Rgb in_middle = Rgb::grey(daylight.middle_lux[side]) + middle_[side];
+    const bool is_hidden = !corners.all() && !(lum(in_middle) > 0.0);
+    return corners.mean([&](std::uint32_t i) {
+      return gathered_[i];
+    }) + (is_hidden || has_middle_[side] == 0 ? at_corners : 0.25 * at_corners + 0.75 * in_middle);
+  }
+
+  /// Light at a corner that no sweep changes.
+  Rgb steady(std::uint32_t i) const {
+    return Rgb::grey(problem_.daylight.points.total_lux(i)) + known_[i].lux;
+  }
+
+  bool is_enough() const {
+    if (light_.sweeps < 2) return false;
+    double sum = 0.0, lit = 0.0;
+    for (std::size_t i = 0; i < is_lit_.size(); ++i) {
+      sum += problem_.daylight.points.total_lux(i) + lum(light_.lux[i]);
+      lit += is_lit_[i];
+    }
+    return light_.convergence_lux <= problem_.enough_pct / 100.0 * sum / std::max(lit, 1.0) ||
+           light_.sweeps >= kMostSweeps;
+  }
+
+  void find_errors() {
+    const auto& [mesh, surfaces, points, lamps, daylight, lift_m, enough] = problem_;
+    light_.spread.assign(mesh.sides(), 0.0);
+    light_.uneven.assign(mesh.sides(), 0.0);
+    for (std::size_t s = 0; s < mesh.sides(); ++s) {
+      if (is_lit_[points.corner[s][0]] == 0) continue;
+      std::array<double, 3> lux{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        lux[k] = lum(gathered_[points.corner[s][k]] + steady(points.corner[s][k]));
+      }
+      const auto [low, high] = std::minmax_element(lux.begin(), lux.end());
+      const OpenCorners corners(points.corner[s], gathered_);
+      const Rgb at_corners = corners.mean([&](std::uint32_t i) { return steady(i); });
+      const double middle = daylight.middle_lux[s] + lum(middle_[s]),
+                   rho = lum(surfaces.reflectance[s / 2]);
+      light_.spread[s] = rho * (corners.all() ? *high - *low : *high);
+      if (has_middle_[s] != 0) light_.uneven[s] = rho * std::abs(lum(at_corners) - middle);
+    }
+    light_.variance = pooled_variance(looks_, points.plane, points.planes);
+    for (std::size_t i = 0; i < known_.size(); ++i) light_.variance[i] += known_[i].variance;
+    light_.mesh_lux.assign(points.size(), 0.0);
+    std::vector<std::array<double, PointGather::kLooks>> mesh_part(points.size());
+    gather_.for_rows(is_lit_, [&](std::size_t i, std::size_t look, const FormFactorRow& row) {
+      mesh_part[i][look] = mesh_error_lux(row, light_.spread, light_.uneven);
+    });
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      light_.mesh_lux[i] = 0.5 * (mesh_part[i][0] + mesh_part[i][1]);
+    }
+  }
+
+  const CornerProblem& problem_;
+  const PointGather& gather_;
+  std::span<const std::uint8_t> is_lit_;
+  CornerLight light_;
+  std::vector<std::uint8_t> has_middle_;  ///< [element side], of the same lamps as at its corners
+  std::vector<EmitterLight::Direct> known_;          ///< [point]
+  std::vector<Rgb> middle_;                          ///< [element side], of lamps
+  std::vector<PointGather::Looks> emitted_, looks_;  ///< [point]
+  std::vector<Rgb> gathered_;                        ///< [point], by rows
+  double change_ = 0.0;
+};
+
+}  // namespace
+
+CornerLight solve_at_corners(const CornerProblem& problem, const PointGather& gather,
+                             std::span<const Rgb> start, std::span<const std::uint8_t> is_lit,
+                             Progress& progress) {
+  return CornerSolver(problem, gather, start, is_lit).solve(progress);
+}
+
+double mesh_error_lux(const FormFactorRow& row, std::span<const double> spread,
+                      std::span<const double> uneven) {
+  double sum = 0.0;
+  for (const FormFactor& f : row) {
+    const double wide = f.value / (f.value + kWideView);
+    sum += f.value * (kNear * wide * spread[f.side] + kDoubt * uneven[f.side]);
+  }
+  return sum;
+}
+
+std::vector<double> pooled_variance(std::span<const PointGather::Looks> looks,
+                                    std::span<const std::uint32_t> plane, std::uint32_t planes) {
+  std::vector<double> squares(planes), values(planes);
+  const auto draw = [&](std::size_t i) { return 0.5 * (lum(looks[i][0]) - lum(looks[i][1])); };
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    squares[plane[i]] += std::pow(draw(i), 2);
+    values[plane[i]] += std::pow(lum(mean_of(looks[i])), 2);
+  }
+  std::vector<double> variance;
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    const double share = values[plane[i]] > 0.0 ? squares[plane[i]] / values[plane[i]] : 0.0;
+    variance.push_back(0.5 * std::pow(draw(i), 2) +
+                       0.5 * share * std::pow(lum(mean_of(looks[i])), 2));
+  }
+  return variance;
+}
+
+std::vector<EmitterLight::Direct> light_of_lamps(const EmitterLight& lamps, const Sensors& sensors,
+                                                 std::span<const std::uint8_t> is_wanted,
+                                                 double lift_m, int rays) {
+  std::vector<EmitterLight::Direct> light(sensors.size());
+  if (!lamps.is_any()) return light;
+  parallel_for(sensors.size(), kGrain, [&](IndexRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      if (is_wanted[i] == 0) continue;
+      const Vec3 normal = sensors.normal[i];
+      light[i] = lamps.at(sensors.position[i] + lift_m * normal, normal, rays);
+    }
+  });
+  return light;
+}
+
+Rgb emission_left_to_row(const SurfaceLight& surfaces, const EmitterLight& lamps,
+                         const EmitterLight::Direct& known, const FormFactorRow& row) {
+  Rgb sum;
+  for (const FormFactor& f : row) {
+    const std::uint32_t e = f.side / 2;
+    if (!surfaces.emits(e) || known.has(lamps.lamp_of(e))) continue;
+    sum = sum + f.value * surfaces.emission_lm_m2[e];
+  }
+  return sum;
+}
+
+std::vector<Rgb> reflected_part(const SurfaceLight& surfaces, std::span<const Rgb> radiosity) {
+  std::vector<Rgb> reflected(radiosity.begin(), radiosity.end());
+  for (std::size_t s = 0; s < reflected.size(); ++s) {
+    reflected[s] = reflected[s] + -1.0 * surfaces.emission_lm_m2[s / 2];
+  }
+  return reflected;
+}
+
+}  // namespace tenku
