@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "core/parallel.h"
@@ -10,40 +11,25 @@ namespace tenku {
 namespace {
 
 constexpr std::size_t kMostSweeps = 100, kGrain = 16;
-constexpr int kLampRays = 64;        // to a lamp that a corner sees in part
-constexpr double kDarkShare = 0.01;  // of the brightest corner: less is inside of something
+constexpr int kLampRays = 64;       // to a lamp that a corner sees in part
+constexpr double kDarkShare = 0.3;  // of the brightest corner: less is inside of something
 constexpr double kNear = 0.3, kWideView = 0.03, kDoubt = 0.05;
 
 double lum(Rgb c) { return luminance_of(c); }
 
-/// Corners of a side that are not inside of something, by what they gather.
-class OpenCorners {
- public:
-  OpenCorners(const std::array<std::uint32_t, 3>& corner, std::span<const Rgb> gathered)
-      : corner_(corner) {
-    double most = 0.0;
-    for (const std::uint32_t i : corner) most = std::max(most, lum(gathered[i]));
-    for (std::size_t k = 0; k < 3; ++k) {
-      is_open_[k] = lum(gathered[corner[k]]) >= kDarkShare * most;
-      count_ += is_open_[k];
-    }
+/// Corners of a side that are not inside of something, by what they gather: three bits.
+std::uint8_t open_corners(const std::array<std::uint32_t, 3>& corner,
+                          std::span<const Rgb> gathered) {
+  double most = 0.0;
+  for (const std::uint32_t i : corner) most = std::max(most, lum(gathered[i]));
+  unsigned open = 0;
+  for (unsigned k = 0; k < 3; ++k) {
+    if (lum(gathered[corner[k]]) >= kDarkShare * most) open |= 1U << k;
   }
-  bool all() const { return count_ == 3; }
+  return static_cast<std::uint8_t>(open);
+}
 
-  template <class At>
-  auto mean(const At& at) const {
-    decltype(at(0U)) sum{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (is_open_[k]) sum = sum + (1.0 / count_) * at(corner_[k]);
-    }
-    return sum;
-  }
-
- private:
-  std::array<std::uint32_t, 3> corner_;
-  std::array<bool, 3> is_open_{};
-  int count_ = 0;
-};
+constexpr std::uint8_t kAllOpen = 7;
 
 class CornerSolver {
  public:
@@ -102,6 +88,11 @@ class CornerSolver {
       change_ = std::max(change_, std::abs(lum(now) - lum(light_.lux[i])));
       light_.lux[i] = now;
     }
+    if (open_.empty()) {  // settled once: a sweep is linear
+      for (const auto& corner : problem_.points.corner) {
+        open_.push_back(open_corners(corner, gathered_));
+      }
+    }
     for (std::size_t s = 0; s < light_.radiosity.size(); ++s) {
       if (is_lit_[problem_.points.corner[s][0]] == 0) continue;
       light_.radiosity[s] =
@@ -112,15 +103,23 @@ class CornerSolver {
     ++light_.sweeps;
   }
 
+  template <class At>
+  Rgb mean_of_open(std::size_t side, const At& at) const {
+    Rgb sum;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if ((open_[side] >> k & 1U) != 0) sum = sum + at(problem_.points.corner[side][k]);
+    }
+    return (1.0 / std::popcount(open_[side])) * sum;
+  }
+
   Rgb mean_lux(std::size_t side) const {
     const DaylightOnSides& daylight = problem_.daylight;
-    const OpenCorners corners(problem_.points.corner[side], gathered_);
-    const Rgb at_corners = corners.mean([&](std::uint32_t i) { return steady(i); });
+    const Rgb at_corners = mean_of_open(side, [&](std::uint32_t i) { return steady(i); });
     const Rgb in_middle = Rgb::grey(daylight.middle_lux[side]) + middle_[side];
-    const bool is_hidden = !corners.all() && !(lum(in_middle) > 0.0);
-    return corners.mean([&](std::uint32_t i) {
-      return gathered_[i];
-    }) + (is_hidden || has_middle_[side] == 0 ? at_corners : 0.25 * at_corners + 0.75 * in_middle);
+    const bool is_hidden = open_[side] != kAllOpen && !(lum(in_middle) > 0.0);
+    return mean_of_open(side, [&](std::uint32_t i) { return gathered_[i]; }) +
+           (is_hidden || has_middle_[side] == 0 ? at_corners
+                                                : 0.25 * at_corners + 0.75 * in_middle);
   }
 
   /// Light at a corner that no sweep changes.
@@ -150,11 +149,10 @@ class CornerSolver {
         lux[k] = lum(gathered_[points.corner[s][k]] + steady(points.corner[s][k]));
       }
       const auto [low, high] = std::minmax_element(lux.begin(), lux.end());
-      const OpenCorners corners(points.corner[s], gathered_);
-      const Rgb at_corners = corners.mean([&](std::uint32_t i) { return steady(i); });
+      const Rgb at_corners = mean_of_open(s, [&](std::uint32_t i) { return steady(i); });
       const double middle = daylight.middle_lux[s] + lum(middle_[s]),
                    rho = lum(surfaces.reflectance[s / 2]);
-      light_.spread[s] = rho * (corners.all() ? *high - *low : *high);
+      light_.spread[s] = rho * (open_[s] == kAllOpen ? *high - *low : *high);
       if (has_middle_[s] != 0) light_.uneven[s] = rho * std::abs(lum(at_corners) - middle);
     }
     light_.variance = pooled_variance(looks_, points.plane, points.planes);
@@ -173,6 +171,7 @@ class CornerSolver {
   const PointGather& gather_;
   std::span<const std::uint8_t> is_lit_;
   CornerLight light_;
+  std::vector<std::uint8_t> open_;        ///< [element side], bits of its corners
   std::vector<std::uint8_t> has_middle_;  ///< [element side], of the same lamps as at its corners
   std::vector<EmitterLight::Direct> known_;          ///< [point]
   std::vector<Rgb> middle_;                          ///< [element side], of lamps
