@@ -28,7 +28,7 @@ struct RadiosityCommandOptions {
   MeshOptions sizes;
   std::optional<double> work_plane;
   double spacing_m = 0.5, memory_mb = 2048.0;
-  int resolution = 64;
+  int resolution = 32;
   std::size_t most_shots = 0;
 
   bool wants_sensors() const { return !sensors.empty() || work_plane.has_value(); }
@@ -232,7 +232,7 @@ void add_radiosity_options(CLI::App& app, RadiosityCommandOptions& o) {
   app.add_option("--form-factors", o.form_factors,
                  "method of the form factors (default hemisphere-rays)");
   app.add_option("--resolution", o.resolution,
-                 "of the form factors of a shot: lines or pixels across (default 64)");
+                 "of the form factors of a shot: lines or pixels across (default 32)");
   app.add_option("--mesh", o.mesh, "how surfaces are divided: uniform");
   app.add_option("--elements-max", o.sizes.elements_max, "elements not to be passed");
   app.add_option("--size-min", o.sizes.element_min_m, "smallest size of an element, metres");

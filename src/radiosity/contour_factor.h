@@ -1,6 +1,8 @@
 /// Form factor of a polygon that nothing hides, in closed form.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <span>
 
 #include "core/vec3.h"
@@ -18,6 +20,10 @@ namespace tenku {
 /// @param polygon  convex and flat, of at most kMostContourCorners corners
 /// @return         0 to 1
 double contour_factor(Vec3 point, Vec3 normal, std::span<const Vec3> polygon);
+
+/// The same of a polygon of any shape, holes too, that lies wholly in front of the surface.
+/// @param edges  all in the same sense about it, in any order
+double contour_factor_of_edges(Vec3 point, Vec3 normal, std::span<const std::array<Vec3, 2>> edges);
 
 inline constexpr std::size_t kMostContourCorners = 16;
 

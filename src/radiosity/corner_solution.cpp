@@ -127,15 +127,18 @@ class CornerSolver {
     return Rgb::grey(problem_.daylight.points.total_lux(i)) + known_[i].lux;
   }
 
+  /// Dim places count: nineteen of twenty corners are brighter than what is compared with.
   bool is_enough() const {
     if (light_.sweeps < 2) return false;
-    double sum = 0.0, lit = 0.0;
+    std::vector<double> lux;
     for (std::size_t i = 0; i < is_lit_.size(); ++i) {
-      sum += problem_.daylight.points.total_lux(i) + lum(light_.lux[i]);
-      lit += is_lit_[i];
+      const double here = problem_.daylight.points.total_lux(i) + lum(light_.lux[i]);
+      if (is_lit_[i] != 0 && here > 0.0) lux.push_back(here);
     }
-    return light_.convergence_lux <= problem_.enough_pct / 100.0 * sum / std::max(lit, 1.0) ||
-           light_.sweeps >= kMostSweeps;
+    if (lux.empty() || light_.sweeps >= kMostSweeps) return true;
+    const auto dim = lux.begin() + static_cast<std::ptrdiff_t>(lux.size() / 20);
+    std::nth_element(lux.begin(), dim, lux.end());
+    return light_.convergence_lux <= problem_.enough_pct / 100.0 * *dim;
   }
 
   void find_errors() {

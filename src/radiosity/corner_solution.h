@@ -24,7 +24,7 @@ struct CornerProblem {
   const EmitterLight& lamps;
   const DaylightOnSides& daylight;
   double lift_m;
-  double enough_pct;  ///< of the mean light: what sweeps may leave
+  double enough_pct;  ///< of the light in dim places: what sweeps may leave
 };
 
 /// Light at corners and what sides send by it.

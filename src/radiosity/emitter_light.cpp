@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "core/random.h"
 #include "radiosity/contour_factor.h"
@@ -29,6 +30,23 @@ std::array<Vec3, 3> corners_of(const ElementMesh& mesh, std::size_t element) {
 Vec3 on_triangle(const std::array<Vec3, 3>& t, double u, double v) {
   const double a = v > u ? 0.5 * u : u - 0.5 * v, b = v > u ? v - 0.5 * u : 0.5 * v;
   return a * t[0] + b * t[1] + (1.0 - a - b) * t[2];
+}
+
+/// Edges of only one element.
+std::vector<std::array<Vec3, 2>> outline_of(const ElementMesh& mesh,
+                                            std::span<const std::uint32_t> elements) {
+  std::map<std::uint32_t, std::set<std::uint32_t>> next;
+  for (const std::uint32_t e : elements) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = mesh.elements[e][k], b = mesh.elements[e][(k + 1) % 3];
+      if (next[b].erase(a) == 0) next[a].insert(b);
+    }
+  }
+  std::vector<std::array<Vec3, 2>> outline;
+  for (const auto& [a, ends] : next) {
+    for (const std::uint32_t b : ends) outline.push_back({mesh.vertices[a], mesh.vertices[b]});
+  }
+  return outline;
 }
 
 /// Van der Corput's sequence.
@@ -77,6 +95,7 @@ void EmitterLight::find_lamps(const SidePoints& points, const SurfaceLight& surf
     lamp.exitance = surfaces.emission_lm_m2[e];
   }
   for (Lamp& lamp : lamp_) {
+    lamp.outline = outline_of(mesh_, lamp.element);
     lamp.centre = (1.0 / lamp.area_m2()) * lamp.centre;
     for (const std::uint32_t e : lamp.element) {
       for (const Vec3 corner : corners_of(mesh_, e)) {
@@ -95,6 +114,10 @@ double EmitterLight::rough_factor(const Lamp& lamp, Vec3 position, Vec3 normal) 
 }
 
 double EmitterLight::factor(const Lamp& lamp, Vec3 position, Vec3 normal) const {
+  const bool is_whole =
+      std::all_of(lamp.outline.begin(), lamp.outline.end(),
+                  [&](const auto& edge) { return dot(edge[0] - position, normal) >= 0.0; });
+  if (is_whole) return contour_factor_of_edges(position, normal, lamp.outline);
   double sum = 0.0;
   for (const std::uint32_t e : lamp.element) {
     sum += contour_factor(position, normal, corners_of(mesh_, e));

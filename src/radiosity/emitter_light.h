@@ -1,6 +1,7 @@
 /// Light straight from surfaces that shine themselves.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -57,7 +58,8 @@ class EmitterLight {
  private:
   struct Lamp {
     std::vector<std::uint32_t> element;
-    std::vector<double> area_to;  ///< [element], of all up to it, m2
+    std::vector<double> area_to;               ///< [element], of all up to it, m2
+    std::vector<std::array<Vec3, 2>> outline;  ///< edges, with the front on their left
     Vec3 centre, normal;
     double radius_m = 0.0;
     Rgb exitance;

@@ -13,6 +13,8 @@ namespace {
 constexpr std::size_t kBatch = 32;  // patch sides whose rows are found at once
 constexpr std::size_t kMostShots = 1'000'000, kMostShotsAPatch = 100;
 
+constexpr double kMostUnshot = 0.0005;  // of what is emitted: a balance to 0.1 %
+
 class Refinement {
  public:
   Refinement(const ElementMesh& mesh, const SurfaceLight& surfaces, std::span<const Rgb> direct)
@@ -62,7 +64,9 @@ class Refinement {
   void settle() { total_unshot_lm_ = std::accumulate(unshot_lm_.begin(), unshot_lm_.end(), 0.0); }
 
   double left_lm() const { return total_unshot_lm_ / (1.0 - surfaces_.most_reflectance); }
-  bool is_within(double tolerance) const { return left_lm() <= tolerance * received_lm_; }
+  bool is_within(double tolerance) const {
+    return left_lm() <= tolerance * received_lm_ && total_unshot_lm_ <= kMostUnshot * emitted_lm_;
+  }
   std::size_t shots() const { return shots_; }
 
   const SideRadiosity& sides() {
@@ -118,6 +122,8 @@ class Refinement {
         const std::size_t s = 2 * e + face;
         sides_.unshot[s] = surfaces_.emission_lm_m2[e] + surfaces_.reflectance[e] * direct_[s];
         received_lm_ += surfaces_.area_m2[e] * luminance_of(direct_[s]);
+        emitted_lm_ +=
+            surfaces_.area_m2[e] * luminance_of(direct_[s] + surfaces_.emission_lm_m2[e]);
         unshot_lm_[2 * patch + face] += surfaces_.area_m2[e] * luminance_of(sides_.unshot[s]);
       }
     }
@@ -144,7 +150,7 @@ class Refinement {
   SideRadiosity sides_;
   std::vector<double> unshot_lm_;  ///< [patch side]
   std::vector<std::uint32_t> order_;
-  double total_unshot_lm_ = 0.0, received_lm_ = 0.0, escaped_lm_ = 0.0;
+  double total_unshot_lm_ = 0.0, emitted_lm_ = 0.0, received_lm_ = 0.0, escaped_lm_ = 0.0;
   std::size_t shots_ = 0;
 };
 

@@ -42,7 +42,7 @@ struct ShotView {
 
 struct RefinementOptions {
   /// The end: what the unshot light can still bring to surfaces is at most this share of what they
-  /// have received.
+  /// have received, and it is itself at most 0.05 % of what is emitted.
   double tolerance = 0.002;
   std::size_t most_shots = 0;  ///< 0: a million, or a hundred to a patch if that is more
   /// Called after shots 1, 2, 4, 8 and so on, and at the end.
