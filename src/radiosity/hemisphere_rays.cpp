@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 
 #include "core/random.h"
 #include "radiosity/form_factor_methods.h"
 #include "radiosity/mesh_soup.h"
+#include "radiosity/point_view.h"
 #include "visibility/ray_visibility.h"
 
 namespace tenku {
@@ -61,6 +61,7 @@ class HemisphereRays : public FormFactorMethod {
   }
 
   std::string_view name() const override { return "hemisphere-rays"; }
+  double lift_m() const override { return rays_.lift_m(); }
 
   FormFactorRow from_point(Vec3 position, Vec3 normal) const override {
     const std::vector<Vec3> direction = directions_at(position, normal);
@@ -79,18 +80,12 @@ class HemisphereRays : public FormFactorMethod {
   static constexpr std::uint32_t kPatterns = 8;
 
   std::vector<Vec3> directions_at(Vec3 position, Vec3 normal) const {
-    std::uint64_t key = mix_bits(seed_);
-    for (const double x : {position.x, position.y, position.z, normal.x, normal.y, normal.z}) {
-      key = mix_bits(key + std::bit_cast<std::uint64_t>(x + 0.0));
-    }
-    SampleRandom random(key, 0, 0);
-    const auto& pattern = pattern_[random.bits() % kPatterns];
-    const double turn = 2.0 * kPi * random.uniform();
-    const auto [t, b] = tangent_frame(normal);
-    const Vec3 x = std::cos(turn) * t + std::sin(turn) * b, y = cross(normal, x);
+    const std::uint64_t key = key_of(position, normal, seed_);
+    const auto& pattern = pattern_[SampleRandom(key, 1, 0).bits() % kPatterns];
+    const auto [x, y, z] = PointAxes(normal, key);
     std::vector<Vec3> direction(pattern.size());
     for (std::size_t k = 0; k < pattern.size(); ++k) {
-      direction[k] = pattern[k].x * x + pattern[k].y * y + pattern[k].z * normal;
+      direction[k] = pattern[k].x * x + pattern[k].y * y + pattern[k].z * z;
     }
     return direction;
   }
