@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "radiosity/polygon_mesh.h"
+#include "scene/scene.h"
 
 namespace tenku {
 namespace {
@@ -21,12 +22,16 @@ struct FaceInfo {
   bool is_seen = false, is_inside = false;
 };
 
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>;
+struct VertexInfo {
+  std::uint32_t index = kNone;  ///< none where edges cross between their ends
+};
+
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<VertexInfo, Kernel>;
 using FaceBase = CGAL::Constrained_triangulation_face_base_2<
     Kernel, CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel>>;
 using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
-using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<
-    Kernel, Structure, CGAL::No_constraint_intersection_requiring_constructions_tag>;
+using Delaunay =
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::Exact_predicates_tag>;
 
 // Points stand closer than the longest edge allowed, for those that are not in a regular place.
 constexpr double kSpacing = 0.8;
@@ -100,12 +105,14 @@ class Builder {
   PolygonMesh mesh() {
     for (const auto& ring : polygon_.rings) add_ring(ring);
     for (const PlanePoint p : lattice(outline_of(polygon_), kSpacing * element_m_)) add_inner(p);
+    if (mesh_.dimension() < 2) return {};  // all on a line: nothing to fill
     mark_inside();
     split_long_edges();
+    place_crossings();
     for (const auto face : mesh_.finite_face_handles()) {
       if (!face->info().is_inside) continue;
-      made_.elements.push_back(
-          {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+      made_.elements.push_back({face->vertex(0)->info().index, face->vertex(1)->info().index,
+                                face->vertex(2)->info().index});
     }
     return std::move(made_);
   }
@@ -117,7 +124,7 @@ class Builder {
     const auto vertex = mesh_.insert(Point2(p.x, p.y), hint_);
     hint_ = vertex->face();
     if (mesh_.number_of_vertices() > before) {
-      vertex->info() = static_cast<std::uint32_t>(made_.vertices.size());
+      vertex->info().index = static_cast<std::uint32_t>(made_.vertices.size());
       made_.vertices.push_back(place);
     }
     return vertex;
@@ -135,6 +142,14 @@ class Builder {
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       const auto a = vertices[i], b = vertices[(i + 1) % vertices.size()];
       if (a != b) mesh_.insert_constraint(a, b);
+    }
+  }
+
+  void place_crossings() {
+    for (const auto vertex : mesh_.finite_vertex_handles()) {
+      if (vertex->info().index != kNone) continue;
+      vertex->info().index = static_cast<std::uint32_t>(made_.vertices.size());
+      made_.vertices.push_back(polygon_.lifted({vertex->point().x(), vertex->point().y()}));
     }
   }
 
