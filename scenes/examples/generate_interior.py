@@ -86,7 +86,7 @@ def room():
     obj.begin("cupboard")
     obj.solid("wood", (4.8, 5.8), (6.0, 7.5), (0.0, 1.6), bottom=False)
     obj.begin("luminaire")
-    obj.level("light", (2.0, 4.0), (3.5, 4.5), 2.99, up=False)
+    obj.level("light", (2.0, 4.0), (3.5, 4.5), 2.98, up=False)
     return obj
 
 
@@ -165,7 +165,7 @@ class Room:
         self.solid("wood", (0.05, 0.45), (0.4, 2.4), (0.0, 1.9), bottom=False)
         for z in (1.2, 1.6) if shelves else ():
             self.solid("wood", (3.68, 3.98), (0.8, 2.3), (z, z + 0.03))
-        self.level("light", (1.4, 2.6), (2.4, 2.7), HEIGHT - 0.01, False)
+        self.level("light", (1.4, 2.6), (2.4, 2.7), HEIGHT - 0.02, False)
 
 
 def add_corridor(obj, z, rooms):

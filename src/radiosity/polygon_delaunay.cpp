@@ -4,10 +4,13 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <utility>
 
 #include "radiosity/polygon_mesh.h"
 #include "scene/scene.h"
@@ -107,12 +110,10 @@ class Builder {
     for (const PlanePoint p : lattice(outline_of(polygon_), kSpacing * element_m_)) add_inner(p);
     if (mesh_.dimension() < 2) return {};  // all on a line: nothing to fill
     mark_inside();
-    split_long_edges();
     place_crossings();
+    split_long_edges();
     for (const auto face : mesh_.finite_face_handles()) {
-      if (!face->info().is_inside) continue;
-      made_.elements.push_back({face->vertex(0)->info().index, face->vertex(1)->info().index,
-                                face->vertex(2)->info().index});
+      if (face->info().is_inside) append_element(face);
     }
     return std::move(made_);
   }
@@ -121,8 +122,9 @@ class Builder {
   Delaunay::Vertex_handle add(Vec3 place) {
     const PlanePoint p = polygon_.flat(place);
     const std::size_t before = mesh_.number_of_vertices();
-    const auto vertex = mesh_.insert(Point2(p.x, p.y), hint_);
-    hint_ = vertex->face();
+    const auto near = last_ == Delaunay::Vertex_handle() ? Delaunay::Face_handle() : last_->face();
+    const auto vertex = mesh_.insert(Point2(p.x, p.y), near);
+    last_ = vertex;
     if (mesh_.number_of_vertices() > before) {
       vertex->info().index = static_cast<std::uint32_t>(made_.vertices.size());
       made_.vertices.push_back(place);
@@ -142,6 +144,19 @@ class Builder {
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       const auto a = vertices[i], b = vertices[(i + 1) % vertices.size()];
       if (a != b) mesh_.insert_constraint(a, b);
+    }
+  }
+
+  /// Leaves out what rounding makes of three points on a line, which has no normal.
+  void append_element(Delaunay::Face_handle face) {
+    std::array<std::uint32_t, 3> element{};
+    for (unsigned k = 0; k < 3; ++k) element[k] = face->vertex(static_cast<int>(k))->info().index;
+    const Vec3 a = made_.vertices[element[0]], ab = made_.vertices[element[1]] - a,
+               ac = made_.vertices[element[2]] - a;
+    constexpr double kFlat = 1e-9;
+    const Vec3 doubled_area = cross(ab, ac);
+    if (dot(doubled_area, polygon_.normal) > kFlat * (dot(ab, ab) + dot(ac, ac))) {
+      made_.elements.push_back(element);
     }
   }
 
@@ -169,22 +184,30 @@ class Builder {
     }
   }
 
-  void split_long_edges() {
-    for (bool is_done = false; !is_done;) {
-      std::vector<PlanePoint> middles;
-      for (const auto face : mesh_.finite_face_handles()) {
-        if (!face->info().is_inside) continue;
-        for (int i = 0; i < 3; ++i) {
-          const Point2 &a = face->vertex(mesh_.cw(i))->point(),
-                       &b = face->vertex(mesh_.ccw(i))->point();
-          if (mesh_.is_constrained({face, i}) || face->neighbor(i) < face) continue;
-          const double length = std::hypot(a.x() - b.x(), a.y() - b.y());
-          if (length > element_m_) middles.push_back({(a.x() + b.x()) / 2, (a.y() + b.y()) / 2});
-        }
+  using Middles = std::map<std::pair<std::uint32_t, std::uint32_t>, PlanePoint>;
+
+  /// Of edges inside that are too long, in an order that does not hang on where things lie in
+  /// memory.
+  Middles middles_of_long_edges() const {
+    Middles middles;
+    for (const auto face : mesh_.finite_face_handles()) {
+      for (int i = 0; face->info().is_inside && i < 3; ++i) {
+        if (mesh_.is_constrained({face, i})) continue;
+        const auto a = face->vertex(mesh_.cw(i)), b = face->vertex(mesh_.ccw(i));
+        const Point2 &p = a->point(), &q = b->point();
+        if (std::hypot(p.x() - q.x(), p.y() - q.y()) <= element_m_) continue;
+        middles[std::minmax(a->info().index, b->info().index)] = {(p.x() + q.x()) / 2.0,
+                                                                  (p.y() + q.y()) / 2.0};
       }
-      for (const PlanePoint p : middles) add_inner(p);
-      is_done = middles.empty();
-      if (is_done) break;
+    }
+    return middles;
+  }
+
+  void split_long_edges() {
+    for (;;) {
+      const Middles middles = middles_of_long_edges();
+      if (middles.empty()) return;
+      for (const auto& [edge, middle] : middles) add_inner(middle);
       for (const auto face : mesh_.all_face_handles()) face->info() = {};
       mark_inside();
     }
@@ -193,13 +216,19 @@ class Builder {
   const FlatPolygon& polygon_;
   double element_m_;
   Delaunay mesh_;
-  Delaunay::Face_handle hint_;
+  Delaunay::Vertex_handle last_;  ///< where the next one is near; faces come and go
   PolygonMesh made_;
 };
 
 }  // namespace
 
 PolygonMesh delaunay_mesh(const FlatPolygon& polygon, double element_m) {
+  if (polygon.rings.size() == 1 && polygon.rings[0].size() == 3) {
+    const std::vector<Vec3>& p = polygon.rings[0];
+    const double longest =
+        std::max({length(p[1] - p[0]), length(p[2] - p[1]), length(p[0] - p[2])});
+    if (longest <= element_m) return {p, {{0, 1, 2}}, 1};
+  }
   return Builder(polygon, element_m).mesh();
 }
 
