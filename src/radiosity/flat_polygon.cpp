@@ -9,22 +9,12 @@
 #include "core/extent.h"
 #include "core/parallel.h"
 #include "radiosity/point_tree.h"
+#include "radiosity/soup_faces.h"
 
 namespace tenku {
 namespace {
 
 constexpr std::uint32_t kNoGroup = 0xffffffffU;
-
-/// A triangle with area, its corners by index after welding.
-struct Face {
-  std::array<std::uint32_t, 3> corner;
-  std::uint32_t material, object;
-  Vec3 doubled_area;
-
-  bool is_like(const Face& other) const {
-    return material == other.material && object == other.object;
-  }
-};
 
 /// A straight piece of a face's border, from vertex to vertex in the sense of the face.
 struct Border {
@@ -39,27 +29,11 @@ bool comes_before(const Border& a, const Border& b) {
   return a.key() != b.key() ? a.key() < b.key() : a.face < b.face;
 }
 
-std::vector<Face> faces_of(const TriangleSoup& soup, std::span<const Material> materials,
-                           const std::vector<std::uint32_t>& weld, double weld_m) {
-  std::vector<Face> faces;
-  faces.reserve(soup.size());
-  for (std::size_t t = 0; t < soup.size(); ++t) {
-    if (materials[soup.material[t]].is_glass()) continue;
-    Face face{{}, soup.material[t], soup.object[t], {}};
-    for (unsigned k = 0; k < 3; ++k) face.corner[k] = weld[soup.triangles[t][k]];
-    const Vec3 a = soup.vertices[face.corner[0]], b = soup.vertices[face.corner[1]],
-               c = soup.vertices[face.corner[2]];
-    face.doubled_area = cross(b - a, c - a);
-    const double longest = std::max({length(b - a), length(c - b), length(a - c)});
-    if (length(face.doubled_area) > weld_m * longest) faces.push_back(face);
-  }
-  return faces;
+/// @param tan  of the angle allowed between the lines of `a` and `b`
+bool are_nearly_parallel(Vec3 a, Vec3 b, double tan) {
+  return length(cross(a, b)) <= tan * std::abs(dot(a, b));
 }
-
-bool are_nearly_parallel(Vec3 a, Vec3 b) {
-  constexpr double kTan = 0.02;  // about a degree, past which neighbours bend
-  return length(cross(a, b)) <= kTan * std::abs(dot(a, b));
-}
+constexpr double kTan = 0.02;  // about a degree, past which neighbours bend
 
 /// Joins triangles group by group.
 class Joiner {
@@ -85,9 +59,10 @@ class Joiner {
     // In the order of the file, so that what belongs together stays together.
     std::sort(groups.begin(), groups.end(),
               [](const auto& a, const auto& b) { return a.front() < b.front(); });
-    std::vector<FlatPolygon> made;
-    made.reserve(groups.size());
-    for (const auto& group : groups) append_polygon(group, made);
+    std::vector<FlatPolygon> made(groups.size());
+    parallel_for(groups.size(), 64, [&](IndexRange range) {
+      for (std::size_t g = range.begin; g < range.end; ++g) made[g] = outlined(groups[g]);
+    });
     return made;
   }
 
@@ -106,9 +81,15 @@ class Joiner {
     used.erase(std::unique(used.begin(), used.end()), used.end());
     split_at_vertices(whole, used);
     std::sort(borders_.begin(), borders_.end(), comes_before);
-    of_face_.assign(faces_.size(), {});
+    first_of_face_.assign(faces_.size() + 1, 0);
+    for (const Border& b : borders_) ++first_of_face_[b.face + 1];
+    std::partial_sum(first_of_face_.begin(), first_of_face_.end(), first_of_face_.begin());
+    of_face_.resize(borders_.size());
+    run_.resize(borders_.size());
+    std::vector<std::uint32_t> next(first_of_face_.begin(), first_of_face_.end() - 1);
     for (std::uint32_t i = 0; i < borders_.size(); ++i) {
-      of_face_[borders_[i].face].push_back(i);
+      of_face_[next[borders_[i].face]++] = i;
+      run_[i] = i > 0 && borders_[i].key() == borders_[i - 1].key() ? run_[i - 1] : i;
     }
   }
 
@@ -117,7 +98,7 @@ class Joiner {
       return sorted[j].key() == sorted[i].key() &&
              faces_[sorted[j].face].is_like(faces_[sorted[i].face]) &&
              are_nearly_parallel(faces_[sorted[j].face].doubled_area,
-                                 faces_[sorted[i].face].doubled_area);
+                                 faces_[sorted[i].face].doubled_area, kTan);
     };
     return (i > 0 && fits(i - 1)) || (i + 1 < sorted.size() && fits(i + 1));
   }
@@ -164,20 +145,15 @@ class Joiner {
       if (!(std::abs(dot(p - origin, normal)) <= tolerance_.plane_m)) return false;
       longest = std::max(longest, length(vertices_[face.corner[(k + 1) % 3]] - p));
     }
-    // The normal of a triangle narrower than this says nothing.
-    constexpr double kNarrow = 50.0;
-    return length(face.doubled_area) <= kNarrow * tolerance_.plane_m * longest ||
-           are_nearly_parallel(face.doubled_area, normal);
+    // Rounding tilts a narrow triangle more.
+    constexpr double kMostTan = 0.5;
+    const double height = length(face.doubled_area) / longest;
+    return are_nearly_parallel(face.doubled_area, normal,
+                               std::min(kMostTan, kTan + tolerance_.plane_m / height));
   }
 
-  template <class Visit>
-  void for_each_sharing(const Border& border, const Visit& visit) const {
-    const auto begin =
-        std::lower_bound(borders_.begin(), borders_.end(), border.key(),
-                         [](const Border& b, const std::pair<std::uint32_t, std::uint32_t>& k) {
-                           return b.key() < k;
-                         });
-    for (auto b = begin; b != borders_.end() && b->key() == border.key(); ++b) visit(*b);
+  std::span<const std::uint32_t> borders_of(std::uint32_t face) const {
+    return {of_face_.data() + first_of_face_[face], of_face_.data() + first_of_face_[face + 1]};
   }
 
   std::vector<std::uint32_t> grown(std::uint32_t seed, std::uint32_t number) {
@@ -186,32 +162,18 @@ class Joiner {
     std::vector<std::uint32_t> members{seed};
     group_[seed] = number;
     for (std::size_t next = 0; next < members.size(); ++next) {
-      for (const std::uint32_t b : of_face_[members[next]]) {
-        for_each_sharing(borders_[b], [&](const Border& other) {
-          const std::uint32_t f = other.face;
-          if (group_[f] != kNoGroup || !faces_[f].is_like(faces_[seed])) return;
-          if (!is_in_plane(faces_[f], origin, normal)) return;
+      for (const std::uint32_t b : borders_of(members[next])) {
+        for (std::uint32_t i = run_[b]; i < borders_.size() && run_[i] == run_[b]; ++i) {
+          const std::uint32_t f = borders_[i].face;
+          if (group_[f] != kNoGroup || !faces_[f].is_like(faces_[seed])) continue;
+          if (!is_in_plane(faces_[f], origin, normal)) continue;
           group_[f] = number;
           members.push_back(f);
-        });
+        }
       }
     }
     std::sort(members.begin(), members.end());
     return members;
-  }
-
-  void append_polygon(const std::vector<std::uint32_t>& members, std::vector<FlatPolygon>& made) {
-    FlatPolygon polygon = outlined(members);
-    double sum = 0.0;
-    for (const std::uint32_t f : members) {
-      sum += 0.5 * std::abs(dot(faces_[f].doubled_area, polygon.normal));
-    }
-    constexpr double kRounding = 1e-6;
-    if (members.size() == 1 || std::abs(sum - polygon.area_m2) <= kRounding * sum) {
-      made.push_back(std::move(polygon));
-      return;
-    }
-    for (const std::uint32_t f : members) made.push_back(outlined({f}));
   }
 
   FlatPolygon outlined(const std::vector<std::uint32_t>& members) const;
@@ -221,8 +183,10 @@ class Joiner {
   std::span<const Vec3> vertices_;
   std::vector<Face> faces_;
   JoinTolerance tolerance_;
-  std::vector<Border> borders_;                      ///< sorted by key
-  std::vector<std::vector<std::uint32_t>> of_face_;  ///< index into `borders_`
+  std::vector<Border> borders_;               ///< sorted by key
+  std::vector<std::uint32_t> of_face_;        ///< index into `borders_`, face by face
+  std::vector<std::uint32_t> first_of_face_;  ///< [face + 1] in `of_face_`
+  std::vector<std::uint32_t> run_;            ///< [border] first with the same key
   std::vector<std::uint32_t> group_;
 };
 
@@ -231,7 +195,7 @@ std::vector<Border> Joiner::outline(const std::vector<std::uint32_t>& members, V
   std::vector<Border> all;
   for (const std::uint32_t f : members) {
     const bool is_turned = dot(faces_[f].doubled_area, normal) < 0.0;
-    for (const std::uint32_t b : of_face_[f]) {
+    for (const std::uint32_t b : borders_of(f)) {
       Border border = borders_[b];
       if (is_turned) std::swap(border.from, border.to);
       all.push_back(border);
@@ -289,18 +253,8 @@ std::vector<std::vector<Vec3>> Joiner::rings(std::vector<Border> outline) const 
   return made;
 }
 
-FlatPolygon Joiner::outlined(const std::vector<std::uint32_t>& members) const {
-  FlatPolygon polygon;
-  polygon.material = faces_[members[0]].material;
-  polygon.object = faces_[members[0]].object;
-  Vec3 front{}, any{};
-  for (const std::uint32_t f : members) {
-    const Vec3 a = faces_[f].doubled_area;
-    front = front + a;
-    any = any + (dot(a, any) < 0.0 ? -a : a);
-  }
-  polygon.normal = normalized(dot(front, any) < 0.0 ? -any : any);
-  polygon.rings = rings(outline(members, polygon.normal));
+/// Lays the axes: the normal is there already.
+void set_frame(FlatPolygon& polygon) {
   double longest = 0.0;
   for (const auto& ring : polygon.rings) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -314,15 +268,62 @@ FlatPolygon Joiner::outlined(const std::vector<std::uint32_t>& members) const {
   }
   polygon.along = normalized(polygon.along - dot(polygon.along, polygon.normal) * polygon.normal);
   polygon.across = cross(polygon.normal, polygon.along);
-  Vec3 doubled{};
-  for (const auto& ring : polygon.rings) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      doubled =
-          doubled + cross(ring[i] - polygon.origin, ring[(i + 1) % ring.size()] - polygon.origin);
-    }
+}
+
+FlatPolygon Joiner::outlined(const std::vector<std::uint32_t>& members) const {
+  FlatPolygon polygon;
+  polygon.material = faces_[members[0]].material;
+  polygon.object = faces_[members[0]].object;
+  Vec3 front{}, any{};
+  for (const std::uint32_t f : members) {
+    const Vec3 a = faces_[f].doubled_area;
+    front = front + a;
+    any = any + (dot(a, any) < 0.0 ? -a : a);
+    polygon.triangles.push_back(faces_[f].triangle);
   }
-  polygon.area_m2 = 0.5 * dot(doubled, polygon.normal);
+  polygon.normal = normalized(dot(front, any) < 0.0 ? -any : any);
+  for (const std::uint32_t f : members) {
+    polygon.area_m2 += 0.5 * std::abs(dot(faces_[f].doubled_area, polygon.normal));
+  }
+  polygon.rings = rings(outline(members, polygon.normal));
+  set_frame(polygon);
   return polygon;
+}
+
+/// Corners of all rings in an order of their own.
+std::vector<std::array<double, 3>> sorted_corners(const FlatPolygon& polygon) {
+  std::vector<std::array<double, 3>> corners;
+  for (const auto& ring : polygon.rings) {
+    for (const Vec3 p : ring) corners.push_back({p.x, p.y, p.z});
+  }
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+/// Leaves out the later of polygons with the same corners: those of which the triangles differ.
+void drop_coincident(std::vector<FlatPolygon>& polygons, std::vector<SurfaceFlaw>& flaws) {
+  std::vector<std::pair<std::vector<std::array<double, 3>>, std::size_t>> keys;
+  keys.reserve(polygons.size());
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    keys.emplace_back(sorted_corners(polygons[i]), i);
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<std::uint8_t> is_dropped(polygons.size());
+  for (std::size_t k = 1, first = 0; k < keys.size(); ++k) {
+    if (keys[k].first != keys[first].first) first = k;
+    if (first == k) continue;
+    const FlatPolygon& polygon = polygons[keys[k].second];
+    is_dropped[keys[k].second] = 1;
+    flaws.push_back({SurfaceFlaw::Kind::Coincident, polygon.object, polygon.origin, 0.0,
+                     polygons[keys[first].second].object});
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    if (is_dropped[i] != 0) continue;
+    if (kept != i) polygons[kept] = std::move(polygons[i]);
+    ++kept;
+  }
+  polygons.resize(kept);
 }
 
 }  // namespace
@@ -333,20 +334,39 @@ JoinTolerance JoinTolerance::of(std::span<const Vec3> vertices) {
   for (const Vec3 p : {extent.min, extent.max}) {
     reach = std::max({reach, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   }
-  constexpr double kFloatSteps = 0x1.0p-22;  // two steps of a float's 24 bits
+  constexpr double kFloatSteps = 0x1.0p-22;  // two steps of a float of 24 bits
   JoinTolerance tolerance;
   tolerance.weld_m = std::max(1e-6 * extent.longest_side(), kFloatSteps * reach);
   tolerance.plane_m = 10.0 * tolerance.weld_m;
   return tolerance;
 }
 
-std::vector<FlatPolygon> join_coplanar(const TriangleSoup& soup,
-                                       std::span<const Material> materials,
-                                       const JoinTolerance& tolerance) {
-  if (soup.triangles.empty()) return {};
-  const auto weld = welded(soup.vertices, tolerance.weld_m);
-  Joiner joiner(soup.vertices, faces_of(soup, materials, weld, tolerance.weld_m), tolerance);
-  return joiner.polygons();
+JoinedSurfaces join_coplanar(const TriangleSoup& soup, std::span<const Material> materials,
+                             const JoinTolerance& tolerance) {
+  JoinedSurfaces joined;
+  if (soup.triangles.empty()) return joined;
+  joined.weld = welded(soup.vertices, tolerance.weld_m);
+  std::vector<Face> faces = faces_of(soup, materials, joined.weld, tolerance.weld_m, joined.flaws);
+  joined.polygons = Joiner(soup.vertices, std::move(faces), tolerance).polygons();
+  drop_coincident(joined.polygons, joined.flaws);
+  return joined;
+}
+
+FlatPolygon triangle_polygon(const TriangleSoup& soup, std::span<const std::uint32_t> weld,
+                             std::uint32_t t) {
+  const std::uint32_t a = weld[soup.triangles[t][0]], b = weld[soup.triangles[t][1]],
+                      c = weld[soup.triangles[t][2]];
+  FlatPolygon polygon;
+  polygon.material = soup.material[t];
+  polygon.object = soup.object[t];
+  polygon.triangles = {t};
+  polygon.rings = {{soup.vertices[a], soup.vertices[b], soup.vertices[c]}};
+  const Vec3 doubled_area =
+      cross(soup.vertices[b] - soup.vertices[a], soup.vertices[c] - soup.vertices[a]);
+  polygon.normal = normalized(doubled_area);
+  polygon.area_m2 = 0.5 * length(doubled_area);
+  set_frame(polygon);
+  return polygon;
 }
 
 }  // namespace tenku

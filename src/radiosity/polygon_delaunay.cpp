@@ -4,12 +4,16 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <utility>
 
 #include "radiosity/polygon_mesh.h"
+#include "scene/scene.h"
 
 namespace tenku {
 namespace {
@@ -21,12 +25,16 @@ struct FaceInfo {
   bool is_seen = false, is_inside = false;
 };
 
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>;
+struct VertexInfo {
+  std::uint32_t index = kNone;  ///< none where edges cross between their ends
+};
+
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<VertexInfo, Kernel>;
 using FaceBase = CGAL::Constrained_triangulation_face_base_2<
     Kernel, CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel>>;
 using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
-using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<
-    Kernel, Structure, CGAL::No_constraint_intersection_requiring_constructions_tag>;
+using Delaunay =
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::Exact_predicates_tag>;
 
 // Points stand closer than the longest edge allowed, for those that are not in a regular place.
 constexpr double kSpacing = 0.8;
@@ -100,12 +108,12 @@ class Builder {
   PolygonMesh mesh() {
     for (const auto& ring : polygon_.rings) add_ring(ring);
     for (const PlanePoint p : lattice(outline_of(polygon_), kSpacing * element_m_)) add_inner(p);
+    if (mesh_.dimension() < 2) return {};  // all on a line: nothing to fill
     mark_inside();
+    place_crossings();
     split_long_edges();
     for (const auto face : mesh_.finite_face_handles()) {
-      if (!face->info().is_inside) continue;
-      made_.elements.push_back(
-          {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+      if (face->info().is_inside) append_element(face);
     }
     return std::move(made_);
   }
@@ -114,10 +122,11 @@ class Builder {
   Delaunay::Vertex_handle add(Vec3 place) {
     const PlanePoint p = polygon_.flat(place);
     const std::size_t before = mesh_.number_of_vertices();
-    const auto vertex = mesh_.insert(Point2(p.x, p.y), hint_);
-    hint_ = vertex->face();
+    const auto near = last_ == Delaunay::Vertex_handle() ? Delaunay::Face_handle() : last_->face();
+    const auto vertex = mesh_.insert(Point2(p.x, p.y), near);
+    last_ = vertex;
     if (mesh_.number_of_vertices() > before) {
-      vertex->info() = static_cast<std::uint32_t>(made_.vertices.size());
+      vertex->info().index = static_cast<std::uint32_t>(made_.vertices.size());
       made_.vertices.push_back(place);
     }
     return vertex;
@@ -138,6 +147,27 @@ class Builder {
     }
   }
 
+  /// Leaves out what rounding makes of three points on a line, which has no normal.
+  void append_element(Delaunay::Face_handle face) {
+    std::array<std::uint32_t, 3> element{};
+    for (unsigned k = 0; k < 3; ++k) element[k] = face->vertex(static_cast<int>(k))->info().index;
+    const Vec3 a = made_.vertices[element[0]], ab = made_.vertices[element[1]] - a,
+               ac = made_.vertices[element[2]] - a;
+    constexpr double kFlat = 1e-9;
+    const Vec3 doubled_area = cross(ab, ac);
+    if (dot(doubled_area, polygon_.normal) > kFlat * (dot(ab, ab) + dot(ac, ac))) {
+      made_.elements.push_back(element);
+    }
+  }
+
+  void place_crossings() {
+    for (const auto vertex : mesh_.finite_vertex_handles()) {
+      if (vertex->info().index != kNone) continue;
+      vertex->info().index = static_cast<std::uint32_t>(made_.vertices.size());
+      made_.vertices.push_back(polygon_.lifted({vertex->point().x(), vertex->point().y()}));
+    }
+  }
+
   /// By the odd-even rule.
   void mark_inside() {
     std::deque<Delaunay::Face_handle> queue{mesh_.infinite_face()};
@@ -154,22 +184,30 @@ class Builder {
     }
   }
 
-  void split_long_edges() {
-    for (bool is_done = false; !is_done;) {
-      std::vector<PlanePoint> middles;
-      for (const auto face : mesh_.finite_face_handles()) {
-        if (!face->info().is_inside) continue;
-        for (int i = 0; i < 3; ++i) {
-          const Point2 &a = face->vertex(mesh_.cw(i))->point(),
-                       &b = face->vertex(mesh_.ccw(i))->point();
-          if (mesh_.is_constrained({face, i}) || face->neighbor(i) < face) continue;
-          const double length = std::hypot(a.x() - b.x(), a.y() - b.y());
-          if (length > element_m_) middles.push_back({(a.x() + b.x()) / 2, (a.y() + b.y()) / 2});
-        }
+  using Middles = std::map<std::pair<std::uint32_t, std::uint32_t>, PlanePoint>;
+
+  /// Of edges inside that are too long, in an order that does not hang on where things lie in
+  /// memory.
+  Middles middles_of_long_edges() const {
+    Middles middles;
+    for (const auto face : mesh_.finite_face_handles()) {
+      for (int i = 0; face->info().is_inside && i < 3; ++i) {
+        if (mesh_.is_constrained({face, i})) continue;
+        const auto a = face->vertex(mesh_.cw(i)), b = face->vertex(mesh_.ccw(i));
+        const Point2 &p = a->point(), &q = b->point();
+        if (std::hypot(p.x() - q.x(), p.y() - q.y()) <= element_m_) continue;
+        middles[std::minmax(a->info().index, b->info().index)] = {(p.x() + q.x()) / 2.0,
+                                                                  (p.y() + q.y()) / 2.0};
       }
-      for (const PlanePoint p : middles) add_inner(p);
-      is_done = middles.empty();
-      if (is_done) break;
+    }
+    return middles;
+  }
+
+  void split_long_edges() {
+    for (;;) {
+      const Middles middles = middles_of_long_edges();
+      if (middles.empty()) return;
+      for (const auto& [edge, middle] : middles) add_inner(middle);
       for (const auto face : mesh_.all_face_handles()) face->info() = {};
       mark_inside();
     }
@@ -178,13 +216,19 @@ class Builder {
   const FlatPolygon& polygon_;
   double element_m_;
   Delaunay mesh_;
-  Delaunay::Face_handle hint_;
+  Delaunay::Vertex_handle last_;  ///< where the next one is near; faces come and go
   PolygonMesh made_;
 };
 
 }  // namespace
 
 PolygonMesh delaunay_mesh(const FlatPolygon& polygon, double element_m) {
+  if (polygon.rings.size() == 1 && polygon.rings[0].size() == 3) {
+    const std::vector<Vec3>& p = polygon.rings[0];
+    const double longest =
+        std::max({length(p[1] - p[0]), length(p[2] - p[1]), length(p[0] - p[2])});
+    if (longest <= element_m) return {p, {{0, 1, 2}}, 1};
+  }
   return Builder(polygon, element_m).mesh();
 }
 

@@ -188,6 +188,11 @@ std::optional<PolygonMesh> grid_mesh(const FlatPolygon& polygon, double element_
   const CellSize cell =
       is_rectangle ? best_cell(x[1] - x[0], y[1] - y[0], element_m) : CellSize{square, square};
   const Lines columns = divided(x, cell.width), rows = divided(y, cell.height);
+  // Lines from the many corners of a jagged outline would cut it finer than it needs.
+  constexpr double kMostTimes = 3.0, kFew = 64.0;
+  const double needed = (x.back() - x.front()) * (y.back() - y.front()) / (square * square);
+  const double cells = static_cast<double>(columns.cells()) * static_cast<double>(rows.cells());
+  if (!is_rectangle && cells > kMostTimes * needed + kFew) return std::nullopt;
   Grid grid(columns, rows);
   for (const auto& ring : polygon.rings) {
     const auto node_of = [&](Vec3 corner) {

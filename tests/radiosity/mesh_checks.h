@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -35,6 +36,17 @@ class Surface {
   /// Level rectangle, facing up.
   void level(double x0, double y0, double x1, double y1, double z = 0.0) {
     fan({{x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}});
+  }
+  void add(const Surface& other) {
+    const auto first = static_cast<std::uint32_t>(soup.vertices.size());
+    for (const Vec3& p : other.soup.vertices) soup.vertices.push_back(p);
+    for (std::size_t t = 0; t < other.soup.size(); ++t) {
+      const auto& [a, b, c] = other.soup.triangles[t];
+      soup.triangles.push_back({first + a, first + b, first + c});
+      soup.material.push_back(other.soup.material[t]);
+      soup.object.push_back(other.soup.object[t]);
+      soup.surface_type.push_back(other.soup.surface_type[t]);
+    }
   }
   ElementMesh mesh(double element_m, double patch_m = 0.0) const {
     return mesh_surfaces(soup, materials, {.element_m = element_m, .patch_m = patch_m});
