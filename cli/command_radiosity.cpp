@@ -2,12 +2,14 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 
 #include "cli/command.h"
 #include "cli/lit_scene_options.h"
+#include "cli/sky_rows.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/stopwatch.h"
@@ -24,7 +26,7 @@ namespace {
 
 struct RadiosityCommandOptions {
   LitSceneOptions lit;
-  std::string form_factors = "hemisphere-rays", mesh = "uniform", sensors, watch;
+  std::string form_factors = "hemisphere-rays", mesh = "uniform", sensors, watch, skies;
   MeshOptions sizes;
   std::optional<double> work_plane;
   double spacing_m = 0.5, memory_mb = 2048.0;
@@ -71,43 +73,51 @@ InteriorOptions interior_options(const RadiosityCommandOptions& options, const L
   return how;
 }
 
+/// One light of the calculation, and what became of it.
+struct LightRun {
+  std::string sky;
+  double open_lux = 0.0;  ///< of the unobstructed horizontal plane
+  bool has_sun = false;
+  InteriorLight light;
+  double seconds = 0.0, daylight_s = 0.0;
+};
+
 /// The whole calculation of one scene.
 class RadiosityRun {
  public:
   RadiosityRun(const RadiosityCommandOptions& options, const CommandContext& context)
       : options_(options),
         context_(context),
-        lit_(load_lit_scene(options.lit, context.progress)),
+        rows_(options.skies.empty()
+                  ? std::vector<SkyRow>{{options.lit.site, options.lit.sky, 1.0}}
+                  : read_sky_rows(options.skies, options.lit.site, options.lit.sky)),
+        lit_(load_lit_scene(as_in_first_row(options.lit, rows_), context.progress)),
         mesh_(make_mesh()),
         interior_(mesh_, lit_.scene().materials,
                   with_watch(interior_options(options, lit_, context.options))) {}
 
   int finish() {
-    std::optional<DaylightMethod> daylight;
-    if (lit_.source().unobstructed_lux() > 0.0) {
-      IlluminanceOptions how = illuminance_options(options_.lit, context_.options);
-      how.bounces = 0;
-      daylight.emplace(lit_.engines(), lit_.source(), how, light_method(options_.lit));
-    }
-    light_ = interior_.light(daylight ? &*daylight : nullptr, context_.progress);
-    if (options_.wants_sensors()) {
-      write_sensors(daylight);
-    } else {
-      write_vtp(options_.lit.out, field_of_radiosity(lit_, mesh_, interior_, light_));
-    }
+    if (options_.wants_sensors()) place_sensors();
+    for (const SkyRow& row : rows_) solve(row);
+    if (table_) table_->write(options_.lit.out);
     return close();
   }
 
  private:
+  static LitSceneOptions as_in_first_row(LitSceneOptions lit, const std::vector<SkyRow>& rows) {
+    lit.site = rows.front().site;
+    lit.sky = rows.front().sky;
+    return lit;
+  }
+
   ElementMesh make_mesh() {
     const Stopwatch watch;
     context_.progress.begin("mesh", 0);
-    const auto& materials = lit_.scene().materials;
-    ElementMesh mesh =
-        mesh_surfaces(lit_.soup(), materials, chosen_sizes(lit_.soup(), materials, options_.sizes));
-    context_.progress.end(std::to_string(mesh.size()) + " elements");
+    MeshedScene meshed = mesh_scene(lit_.scene(), lit_.soup(), options_.sizes);
+    context_.progress.end(std::to_string(meshed.mesh.size()) + " elements");
+    mesh_findings_ = std::move(meshed.findings);
     mesh_s_ = watch.seconds();
-    return mesh;
+    return std::move(meshed.mesh);
   }
 
   InteriorOptions with_watch(InteriorOptions how) {
@@ -121,107 +131,171 @@ class RadiosityRun {
     return how;
   }
 
-  void write_sensors(const std::optional<DaylightMethod>& daylight) {
-    Sensors in_file, sensors;
+  void place_sensors() {
     if (options_.work_plane) {
-      sensors = work_plane(lit_, *options_.work_plane, options_.spacing_m);
-      in_file = sensors;
-      for (Vec3& at : in_file.position) at = lit_.scene().frame.to_file(at);
+      sensors_ = work_plane(lit_, *options_.work_plane, options_.spacing_m);
+      in_file_ = sensors_;
+      for (Vec3& at : in_file_.position) at = lit_.scene().frame.to_file(at);
     } else {
-      in_file = read_sensor_file(options_.sensors);
-      sensors = lit_.to_local(in_file);
-    }
-    SensorIlluminance values(sensors.size());
-    if (daylight) {
-      const Stopwatch watch;
-      IlluminanceResult direct = illuminate(sensors, lit_.engines(), lit_.source(),
-                                            daylight->options, daylight->method, context_.progress);
-      values = std::move(direct.values);
-      daylight_s_ = watch.seconds();
+      in_file_ = read_sensor_file(options_.sensors);
+      sensors_ = lit_.to_local(in_file_);
     }
     const Stopwatch watch;
-    interior_.add_reflected(sensors, light_, values, context_.progress);
-    sensors_s_ = watch.seconds();
-    count_missed(values);
-    table_of(in_file, values).write(options_.lit.out);
+    look_ = interior_.look_from(sensors_, context_.progress);
+    sensors_s_ += watch.seconds();
   }
 
-  void count_missed(const SensorIlluminance& values) {
+  void solve(const SkyRow& row) {
+    const Stopwatch watch;
+    LightRun run;
+    Sky sky = resolve_sky(row.site, row.sky, lit_.site());
+    DaylightSource source;
+    if (sky.model) source.sky = std::make_unique<SkyTable>(*sky.model);
+    source.sun = sky.sun;
+    source.model = sky.model.get();
+    run.sky = sky.description;
+    run.open_lux = source.unobstructed_lux();
+    run.has_sun = source.sun.normal_illuminance > Illuminance(0.0);
+    IlluminanceOptions how = illuminance_options(options_.lit, context_.options);
+    how.bounces = 0;
+    const DaylightMethod daylight{lit_.engines(), source, how, light_method(options_.lit)};
+    const double before = interior_.times().daylight_s;
+    const LightRequest request{run.open_lux > 0.0 ? &daylight : nullptr, row.lamp_scale};
+    run.light = interior_.light(request, context_.progress);
+    run.daylight_s = interior_.times().daylight_s - before;
+    if (options_.wants_sensors()) {
+      add_to_table(run, daylight);
+    } else {
+      write_vtp(field_file(), field_of_radiosity(lit_, mesh_, interior_, run.light));
+    }
+    run.light.findings.insert(run.light.findings.end(), sky.diagnostics.begin(),
+                              sky.diagnostics.end());
+    run.seconds = watch.seconds();
+    runs_.push_back(std::move(run));
+  }
+
+  /// With a table of skies one file a row: `F.vtp` becomes `F_0001.vtp`.
+  std::filesystem::path field_file() const {
+    const std::filesystem::path out = options_.lit.out;
+    if (options_.skies.empty()) return out;
+    return out.parent_path() / fmt::format("{}_{:04}.vtp", out.stem().string(), runs_.size() + 1);
+  }
+
+  void add_to_table(LightRun& run, const DaylightMethod& daylight) {
+    SensorIlluminance values(sensors_.size());
+    const Stopwatch watch;
+    if (run.open_lux > 0.0) {
+      IlluminanceResult direct = illuminate(sensors_, lit_.engines(), daylight.source,
+                                            daylight.options, daylight.method, context_.progress);
+      values = std::move(direct.values);
+    }
+    interior_.add_reflected(look_, run.light, values);
+    sensors_s_ += watch.seconds();
+    count_missed(values, run.open_lux);
+    const bool has_factor = options_.work_plane.has_value();
+    if (!table_) {
+      table_.emplace((options_.skies.empty() ? "" : "row,") + std::string(kIlluminanceHeader) +
+                     (has_factor ? ",daylight_factor" : ""));
+    }
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!options_.skies.empty()) table_->add(static_cast<double>(runs_.size() + 1));
+      add_illuminance(*table_, {in_file_.position[i], in_file_.normal[i]}, values, i);
+      if (has_factor) table_->add(daylight_factor(run, values.total_lux(i)));
+      table_->end_row();
+    }
+  }
+
+  /// In percent; none under a sun, or without a sky.
+  static double daylight_factor(const LightRun& run, double lux) {
+    if (run.has_sun || !(run.open_lux > 0.0)) return std::numeric_limits<double>::quiet_NaN();
+    return 100.0 * lux / run.open_lux;
+  }
+
+  void count_missed(const SensorIlluminance& values, double open_lux) {
     double mean = 0.0;
-    for (std::size_t i = 0; i < values.size(); ++i) mean += values.total_lux(i) / values.size();
-    const double floor = std::max(0.001 * lit_.source().unobstructed_lux(), 0.01 * mean);
-    const ErrorBudget budget(options_.lit.tolerance_pct, floor);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      mean += values.total_lux(i) / static_cast<double>(values.size());
+    }
+    const ErrorBudget budget(options_.lit.tolerance_pct, std::max(0.001 * open_lux, 0.01 * mean));
     for (std::size_t i = 0; i < values.size(); ++i) {
       missed_ += values.error_lux[i] > budget.allowed_lux(values.total_lux(i));
     }
   }
 
-  CsvTable table_of(const Sensors& in_file, const SensorIlluminance& values) const {
-    const double open = lit_.source().unobstructed_lux();
-    const bool has_sun = lit_.source().sun.normal_illuminance > Illuminance(0.0);
-    if (!options_.work_plane || has_sun || !(open > 0.0)) {
-      return illuminance_table(in_file.position, in_file.normal, values);
-    }
-    std::vector<double> factor;
-    for (std::size_t i = 0; i < values.size(); ++i)
-      factor.push_back(100.0 * values.total_lux(i) / open);
-    return illuminance_table(in_file.position, in_file.normal, values, {"daylight_factor", factor});
-  }
-
   int close() const {
     std::vector<Finding> findings = lit_.scene().findings;
-    for (const auto* more : {&lit_.sky().diagnostics, &light_.findings}) {
-      findings.insert(findings.end(), more->begin(), more->end());
+    findings.insert(findings.end(), mesh_findings_.begin(), mesh_findings_.end());
+    bool is_converged = true;
+    for (const LightRun& run : runs_) {
+      findings.insert(findings.end(), run.light.findings.begin(), run.light.findings.end());
+      is_converged &= run.light.shots.is_converged || options_.most_shots > 0;
     }
     say_findings(context_.options, findings);
-    const LightBalance& b = light_.shots.balance;
+    const LightBalance& b = runs_.front().light.shots.balance;
     say(context_.options,
         fmt::format("{} patches, {} elements, {} shots; emitted {:.6g} lm, absorbed {:.6g}, "
                     "escaped {:.6g}, unshot {:.3g}",
-                    mesh_.patches(), mesh_.size(), light_.shots.shots, b.emitted_lm, b.absorbed_lm,
-                    b.escaped_lm, b.unshot_lm));
+                    mesh_.patches(), mesh_.size(), runs_.front().light.shots.shots, b.emitted_lm,
+                    b.absorbed_lm, b.escaped_lm, b.unshot_lm));
     if (context_.options.json) fmt::print("{}\n", summary().dump(2));
-    const bool has_time = options_.most_shots == 0;
-    return (has_time && !light_.shots.is_converged) || missed_ > 0 ? kToleranceNotReached : kDone;
+    return !is_converged || missed_ > 0 ? kToleranceNotReached : kDone;
   }
 
-  nlohmann::ordered_json summary() const {
-    const LightBalance& b = light_.shots.balance;
-    const InteriorTimes& times = interior_.times();
-    return {{"patches", mesh_.patches()},
-            {"elements", mesh_.size()},
-            {"vertices", mesh_.vertices.size()},
-            {"shots", light_.shots.shots},
-            {"sweeps", light_.corners.sweeps},
-            {"seconds",
-             {{"total_s", watch_.seconds()},
-              {"mesh_s", mesh_s_},
-              {"daylight_s", times.daylight_s + daylight_s_},
-              {"form_factors_s", times.form_factors_s},
-              {"solve_s", times.solve_s},
-              {"size_field_s", 0.0},
-              {"remesh_s", 0.0},
-              {"sensors_s", sensors_s_}}},
+  static nlohmann::ordered_json json_of_light(const LightRun& run) {
+    const LightBalance& b = run.light.shots.balance;
+    return {{"sky", run.sky},
+            {"horizontal_lux", run.open_lux},
+            {"shots", run.light.shots.shots},
+            {"sweeps", run.light.corners.sweeps},
             {"emitted_lm", b.emitted_lm},
             {"absorbed_lm", b.absorbed_lm},
             {"escaped_lm", b.escaped_lm},
             {"unshot_lm", b.unshot_lm},
-            {"left_lm", light_.shots.left_lm},
-            {"convergence_lux", light_.corners.convergence_lux},
-            {"is_converged", light_.shots.is_converged},
-            {"out_of_tolerance", missed_},
-            {"sky", lit_.sky().description},
-            {"horizontal_lux", lit_.source().unobstructed_lux()}};
+            {"left_lm", run.light.shots.left_lm},
+            {"convergence_lux", run.light.corners.convergence_lux},
+            {"is_converged", run.light.shots.is_converged}};
+  }
+
+  nlohmann::ordered_json summary() const {
+    const InteriorTimes& times = interior_.times();
+    nlohmann::ordered_json json{{"patches", mesh_.patches()},
+                                {"elements", mesh_.size()},
+                                {"vertices", mesh_.vertices.size()},
+                                {"seconds",
+                                 {{"total_s", watch_.seconds()},
+                                  {"mesh_s", mesh_s_},
+                                  {"daylight_s", times.daylight_s},
+                                  {"form_factors_s", times.form_factors_s},
+                                  {"solve_s", times.solve_s},
+                                  {"size_field_s", 0.0},
+                                  {"remesh_s", 0.0},
+                                  {"sensors_s", sensors_s_}}},
+                                {"form_factor_bytes", interior_.bytes()},
+                                {"out_of_tolerance", missed_}};
+    json.update(json_of_light(runs_.front()));
+    if (options_.skies.empty()) return json;
+    for (const LightRun& run : runs_) {
+      nlohmann::ordered_json one = json_of_light(run);
+      one["seconds"] = run.seconds;
+      one["daylight_s"] = run.daylight_s;
+      json["skies"].push_back(std::move(one));
+    }
+    return json;
   }
 
   const RadiosityCommandOptions& options_;
   const CommandContext& context_;
   Stopwatch watch_;
+  std::vector<SkyRow> rows_;
   LitScene lit_;
-  double mesh_s_ = 0.0, daylight_s_ = 0.0, sensors_s_ = 0.0;
+  double mesh_s_ = 0.0, sensors_s_ = 0.0;
+  std::vector<Finding> mesh_findings_;
   ElementMesh mesh_;
   Interior interior_;
-  InteriorLight light_;
+  Sensors in_file_, sensors_;
+  InteriorSensors look_;
+  std::optional<CsvTable> table_;
+  std::vector<LightRun> runs_;
   std::size_t missed_ = 0;
 };
 
@@ -247,6 +321,8 @@ void add_radiosity_options(CLI::App& app, RadiosityCommandOptions& o) {
                  "height of a level plane of sensors, in the file's coordinates. Writes a table");
   app.add_option("--spacing", o.spacing_m,
                  "of the sensors of the work plane, metres (default 0.5)");
+  app.add_option("--skies", o.skies,
+                 "table of skies, suns, hours and lamps, solved with one set of form factors");
   app.add_option("--watch", o.watch, "folder for the mesh as it is after 1, 2, 4, 8 ... shots");
 }
 

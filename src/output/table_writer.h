@@ -5,7 +5,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "core/vec3.h"
@@ -50,12 +49,19 @@ class CsvTable {
 inline constexpr std::string_view kIlluminanceHeader =
     "x,y,z,nx,ny,nz,sun_lux,sky_lux,reflected_lux,total_lux,error_lux,sky_view";
 
+/// A sensor as the user gave it, in the coordinates of the scene file.
+struct SensorInFile {
+  Vec3 position, normal;
+};
+
+/// Adds the cells of kIlluminanceHeader to a row that is not ended.
+void add_illuminance(CsvTable& table, const SensorInFile& sensor, const SensorIlluminance& results,
+                     std::size_t index);
+
 /// Table of `results` on sensors, in their order.
 ///
 /// @param positions, normals  as the user gave them, in the coordinates of the scene file
-/// @param more  a last column: its name and its values [sensor]; none if the name is empty
 CsvTable illuminance_table(std::span<const Vec3> positions, std::span<const Vec3> normals,
-                           const SensorIlluminance& results,
-                           const std::pair<std::string, std::vector<double>>& more = {});
+                           const SensorIlluminance& results);
 
 }  // namespace tenku

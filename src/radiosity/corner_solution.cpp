@@ -38,7 +38,6 @@ class CornerSolver {
       : problem_(problem), gather_(gather), is_lit_(is_lit) {
     light_.radiosity.assign(start.begin(), start.end());
     light_.lux.resize(is_lit.size());
-    find_lamps();
   }
 
   CornerLight solve(const Progress& progress) {
@@ -51,29 +50,6 @@ class CornerSolver {
   }
 
  private:
-  void find_lamps() {
-    const auto& [mesh, surfaces, points, lamps, daylight, lift_m, enough] = problem_;
-    emitted_.resize(points.size());
-    middle_.resize(mesh.sides());
-    has_middle_.assign(mesh.sides(), 1);
-    known_ = light_of_lamps(lamps, points.sensors, is_lit_, lift_m, kLampRays);
-    if (!surfaces.any_emits) return;
-    gather_.for_rows(is_lit_, [&](std::size_t i, std::size_t look, const FormFactorRow& row) {
-      emitted_[i][look] = emission_left_to_row(surfaces, lamps, known_[i], row);
-    });
-    if (!lamps.is_any()) return;
-    parallel_for(mesh.sides(), kGrain, [&](IndexRange range) {
-      for (std::size_t s = range.begin; s < range.end; ++s) {
-        if (is_lit_[points.corner[s][0]] == 0) continue;
-        const Vec3 normal = mesh.normal(s);
-        const auto middle = lamps.at(mesh.centre(s / 2) + lift_m * normal, normal, kLampRays);
-        middle_[s] = middle.lux;
-        for (const std::uint32_t i : points.corner[s])
-          has_middle_[s] &= known_[i].lamp == middle.lamp;
-      }
-    });
-  }
-
   void sweep() {
     const SurfaceLight& surfaces = problem_.surfaces;
     looks_ = gather_.gather(reflected_part(surfaces, light_.radiosity), is_lit_);
@@ -81,10 +57,10 @@ class CornerSolver {
     gathered_.resize(looks_.size());
     for (std::size_t i = 0; i < looks_.size(); ++i) {
       for (std::size_t k = 0; k < PointGather::kLooks; ++k) {
-        looks_[i][k] = looks_[i][k] + emitted_[i][k];
+        looks_[i][k] = looks_[i][k] + problem_.lamp_scale * problem_.lamps.left_to_rows[i][k];
       }
       gathered_[i] = mean_of(looks_[i]);
-      const Rgb now = gathered_[i] + known_[i].lux;
+      const Rgb now = gathered_[i] + of_lamps(i);
       change_ = std::max(change_, std::abs(lum(now) - lum(light_.lux[i])));
       light_.lux[i] = now;
     }
@@ -115,16 +91,21 @@ class CornerSolver {
   Rgb mean_lux(std::size_t side) const {
     const DaylightOnSides& daylight = problem_.daylight;
     const Rgb at_corners = mean_of_open(side, [&](std::uint32_t i) { return steady(i); });
-    const Rgb in_middle = Rgb::grey(daylight.middle_lux[side]) + middle_[side];
+    const Rgb in_middle = Rgb::grey(daylight.middle_lux[side]) + middle_of_lamps(side);
     const bool is_hidden = open_[side] != kAllOpen && !(lum(in_middle) > 0.0);
     return mean_of_open(side, [&](std::uint32_t i) { return gathered_[i]; }) +
-           (is_hidden || has_middle_[side] == 0 ? at_corners
-                                                : 0.25 * at_corners + 0.75 * in_middle);
+           (is_hidden || problem_.lamps.has_middle[side] == 0
+                ? at_corners
+                : 0.25 * at_corners + 0.75 * in_middle);
   }
 
   /// Light at a corner that no sweep changes.
   Rgb steady(std::uint32_t i) const {
-    return Rgb::grey(problem_.daylight.points.total_lux(i)) + known_[i].lux;
+    return Rgb::grey(problem_.daylight.points.total_lux(i)) + of_lamps(i);
+  }
+  Rgb of_lamps(std::size_t i) const { return problem_.lamp_scale * problem_.lamps.corner[i].lux; }
+  Rgb middle_of_lamps(std::size_t side) const {
+    return problem_.lamp_scale * problem_.lamps.middle[side];
   }
 
   /// Dim places count: nineteen of twenty corners are brighter than what is compared with.
@@ -142,7 +123,7 @@ class CornerSolver {
   }
 
   void find_errors() {
-    const auto& [mesh, surfaces, points, lamps, daylight, lift_m, enough] = problem_;
+    const auto& [mesh, surfaces, points, lamps, lamp_scale, daylight, enough] = problem_;
     light_.spread.assign(mesh.sides(), 0.0);
     light_.uneven.assign(mesh.sides(), 0.0);
     for (std::size_t s = 0; s < mesh.sides(); ++s) {
@@ -153,13 +134,15 @@ class CornerSolver {
       }
       const auto [low, high] = std::minmax_element(lux.begin(), lux.end());
       const Rgb at_corners = mean_of_open(s, [&](std::uint32_t i) { return steady(i); });
-      const double middle = daylight.middle_lux[s] + lum(middle_[s]),
+      const double middle = daylight.middle_lux[s] + lum(middle_of_lamps(s)),
                    rho = lum(surfaces.reflectance[s / 2]);
       light_.spread[s] = rho * (open_[s] == kAllOpen ? *high - *low : *high);
-      if (has_middle_[s] != 0) light_.uneven[s] = rho * std::abs(lum(at_corners) - middle);
+      if (lamps.has_middle[s] != 0) light_.uneven[s] = rho * std::abs(lum(at_corners) - middle);
     }
-    light_.variance = pooled_variance(looks_, points.plane, points.planes);
-    for (std::size_t i = 0; i < known_.size(); ++i) light_.variance[i] += known_[i].variance;
+    light_.variance = pooled_variance(looks_, points.plane);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      light_.variance[i] += lamp_scale * lamp_scale * lamps.corner[i].variance;
+    }
     light_.mesh_lux.assign(points.size(), 0.0);
     std::vector<std::array<double, PointGather::kLooks>> mesh_part(points.size());
     gather_.for_rows(is_lit_, [&](std::size_t i, std::size_t look, const FormFactorRow& row) {
@@ -174,16 +157,41 @@ class CornerSolver {
   const PointGather& gather_;
   std::span<const std::uint8_t> is_lit_;
   CornerLight light_;
-  std::vector<std::uint8_t> open_;        ///< [element side], bits of its corners
-  std::vector<std::uint8_t> has_middle_;  ///< [element side], of the same lamps as at its corners
-  std::vector<EmitterLight::Direct> known_;          ///< [point]
-  std::vector<Rgb> middle_;                          ///< [element side], of lamps
-  std::vector<PointGather::Looks> emitted_, looks_;  ///< [point]
-  std::vector<Rgb> gathered_;                        ///< [point], by rows
+  std::vector<std::uint8_t> open_;         ///< [element side], bits of its corners
+  std::vector<PointGather::Looks> looks_;  ///< [point]
+  std::vector<Rgb> gathered_;              ///< [point], by rows
   double change_ = 0.0;
 };
 
 }  // namespace
+
+LampsOnMesh lamps_on_mesh(const ElementMesh& mesh, const SurfaceLight& surfaces,
+                          const SidePoints& points, const EmitterLight& lamps,
+                          const PointGather& gather, std::span<const std::uint8_t> is_lit,
+                          double lift_m) {
+  LampsOnMesh found;
+  found.left_to_rows.resize(points.size());
+  found.middle.resize(mesh.sides());
+  found.has_middle.assign(mesh.sides(), 1);
+  found.corner = light_of_lamps(lamps, points.sensors, is_lit, lift_m, kLampRays);
+  if (!surfaces.any_emits) return found;
+  gather.for_rows(is_lit, [&](std::size_t i, std::size_t look, const FormFactorRow& row) {
+    found.left_to_rows[i][look] = emission_left_to_row(surfaces, lamps, found.corner[i], row);
+  });
+  if (!lamps.is_any()) return found;
+  parallel_for(mesh.sides(), kGrain, [&](IndexRange range) {
+    for (std::size_t s = range.begin; s < range.end; ++s) {
+      if (is_lit[points.corner[s][0]] == 0) continue;
+      const Vec3 normal = mesh.normal(s);
+      const auto middle = lamps.at(mesh.centre(s / 2) + lift_m * normal, normal, kLampRays);
+      found.middle[s] = middle.lux;
+      for (const std::uint32_t i : points.corner[s]) {
+        found.has_middle[s] &= found.corner[i].lamp == middle.lamp;
+      }
+    }
+  });
+  return found;
+}
 
 CornerLight solve_at_corners(const CornerProblem& problem, const PointGather& gather,
                              std::span<const Rgb> start, std::span<const std::uint8_t> is_lit,
@@ -202,18 +210,19 @@ double mesh_error_lux(const FormFactorRow& row, std::span<const double> spread,
 }
 
 std::vector<double> pooled_variance(std::span<const PointGather::Looks> looks,
-                                    std::span<const std::uint32_t> plane, std::uint32_t planes) {
-  std::vector<double> squares(planes), values(planes);
+                                    std::span<const std::uint32_t> group) {
+  const std::uint32_t groups =
+      group.empty() ? 0 : *std::max_element(group.begin(), group.end()) + 1;
+  std::vector<double> squares(groups), values(groups), variance;
   const auto draw = [&](std::size_t i) { return 0.5 * (lum(looks[i][0]) - lum(looks[i][1])); };
   for (std::size_t i = 0; i < looks.size(); ++i) {
-    squares[plane[i]] += std::pow(draw(i), 2);
-    values[plane[i]] += std::pow(lum(mean_of(looks[i])), 2);
+    squares[group[i]] += std::pow(draw(i), 2);
+    values[group[i]] += std::pow(lum(mean_of(looks[i])), 2);
   }
-  std::vector<double> variance;
   for (std::size_t i = 0; i < looks.size(); ++i) {
-    const double share = values[plane[i]] > 0.0 ? squares[plane[i]] / values[plane[i]] : 0.0;
-    variance.push_back(0.5 * std::pow(draw(i), 2) +
-                       0.5 * share * std::pow(lum(mean_of(looks[i])), 2));
+    const double share = values[group[i]] > 0.0 ? squares[group[i]] / values[group[i]] : 0.0;
+    const double usual = share * std::pow(lum(mean_of(looks[i])), 2);
+    variance.push_back(std::max(usual, 0.5 * (usual + std::pow(draw(i), 2))));
   }
   return variance;
 }

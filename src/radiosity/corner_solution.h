@@ -16,14 +16,28 @@
 
 namespace tenku {
 
+/// Light straight from lamps on a mesh, as they are: found once, whatever the sky.
+struct LampsOnMesh {
+  std::vector<EmitterLight::Direct> corner;      ///< [point]
+  std::vector<PointGather::Looks> left_to_rows;  ///< [point], of surfaces that are not in the above
+  std::vector<Rgb> middle;                       ///< [element side], lux
+  std::vector<std::uint8_t> has_middle;  ///< [element side], of the same lamps as at its corners
+};
+
+/// @param is_lit  [point]: others have no light
+LampsOnMesh lamps_on_mesh(const ElementMesh& mesh, const SurfaceLight& surfaces,
+                          const SidePoints& points, const EmitterLight& lamps,
+                          const PointGather& gather, std::span<const std::uint8_t> is_lit,
+                          double lift_m);
+
 /// What never changes while corners gather: borrowed.
 struct CornerProblem {
   const ElementMesh& mesh;
   const SurfaceLight& surfaces;
   const SidePoints& points;
-  const EmitterLight& lamps;
+  const LampsOnMesh& lamps;
+  double lamp_scale;  ///< of what surfaces emit: `surfaces` have it in them, `lamps` have not
   const DaylightOnSides& daylight;
-  double lift_m;
   double enough_pct;  ///< of the light in dim places: what sweeps may leave
 };
 
@@ -64,11 +78,11 @@ CornerLight solve_at_corners(const CornerProblem& problem, const PointGather& ga
 double mesh_error_lux(const FormFactorRow& row, std::span<const double> spread,
                       std::span<const double> uneven);
 
-/// Variance of each mean of two looks, lux^2: half its own draw, half that of its plane in
-/// proportion.
-/// @param plane  [point], below `planes`
+/// Variance of each mean of two looks, lux^2: half its own draw and half that of its group in
+/// proportion, and no less than the latter.
+/// @param group  [point], numbers from 0
 std::vector<double> pooled_variance(std::span<const PointGather::Looks> looks,
-                                    std::span<const std::uint32_t> plane, std::uint32_t planes);
+                                    std::span<const std::uint32_t> group);
 
 /// Light straight from lamps, at points on a surface.
 std::vector<EmitterLight::Direct> light_of_lamps(const EmitterLight& lamps, const Sensors& sensors,

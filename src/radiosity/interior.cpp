@@ -3,17 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <string>
 #include <utility>
 
 #include "core/stopwatch.h"
 #include "illuminance/error_budget.h"
+#include "illuminance/reflected_sharing.h"
 
 namespace tenku {
 namespace {
 
 constexpr double kShotShare = 0.1;   // of the tolerance: what shots may leave unshot
-constexpr double kSweepShare = 0.1;  // of the tolerance and the mean light: left by sweeps
+constexpr double kSweepShare = 0.1;  // of the tolerance, in dim places: left by sweeps
+constexpr double kRounding = 1e-5;   // of the sum of a row
 constexpr int kLampRays = 4096;      // to a lamp that a sensor sees in part
 
 PointGatherOptions gather_options(const InteriorOptions& options, int resolution) {
@@ -24,6 +27,22 @@ PointGatherOptions gather_options(const InteriorOptions& options, int resolution
   gather.lift_m = options.lift_m;
   gather.most_bytes = options.most_bytes / 2;
   return gather;
+}
+
+SurfaceLight scaled(SurfaceLight surfaces, double lamp_scale) {
+  for (Rgb& emission : surfaces.emission_lm_m2) emission = lamp_scale * emission;
+  return surfaces;
+}
+
+/// Sensors that face one way have one number.
+std::vector<std::uint32_t> facings(const Sensors& sensors) {
+  std::map<std::uint64_t, std::uint32_t> number;
+  std::vector<std::uint32_t> of_sensor;
+  for (const Vec3 n : sensors.normal) {
+    const auto next = static_cast<std::uint32_t>(number.size());
+    of_sensor.push_back(number.emplace(facing(n), next).first->second);
+  }
+  return of_sensor;
 }
 
 bool is_any(Rgb c) { return c.r > 0.0 || c.g > 0.0 || c.b > 0.0; }
@@ -50,7 +69,8 @@ Interior::Interior(const ElementMesh& mesh, const std::vector<Material>& materia
       gather_(mesh, points_.sensors, gather_options(options, options.point_resolution)),
       emitters_(mesh, points_, surfaces_, options.shot.seed) {}
 
-std::vector<std::uint8_t> Interior::open_points(Progress& progress) {
+const std::vector<std::uint8_t>& Interior::open_points(Progress& progress) {
+  if (is_open_) return *is_open_;
   const Stopwatch watch;
   const std::vector<std::uint8_t> all(points_.size(), 1);
   gather_.prepare(all, progress);
@@ -58,53 +78,81 @@ std::vector<std::uint8_t> Interior::open_points(Progress& progress) {
   gather_.for_rows(all, [&](std::size_t point, std::size_t, const FormFactorRow& row) {
     double sum = 0.0;
     for (const FormFactor& f : row) sum += f.value;
-    if (sum < 1.0 - 1e-5) is_open[point] = 1;
+    if (sum < 1.0 - kRounding) is_open[point] = 1;
   });
   times_.form_factors_s += watch.seconds();
-  return on_whole_planes(points_, std::move(is_open));
+  is_open_ = on_whole_planes(points_, std::move(is_open));
+  return *is_open_;
 }
 
-InteriorLight Interior::light(const DaylightMethod* daylight, Progress& progress) {
-  InteriorLight light;
-  light.findings = findings_;
-  DaylightOnSides direct(points_.size(), mesh_.sides());
-  if (daylight != nullptr) {
-    const auto is_open = open_points(progress);
-    const Stopwatch watch;
-    direct = daylight_on_sides(mesh_, points_, is_open, *daylight, progress);
-    times_.daylight_s += watch.seconds();
-    light.findings.insert(light.findings.end(), direct.findings.begin(), direct.findings.end());
-  }
+RefinementResult Interior::shoot(const SurfaceLight& surfaces, const DaylightOnSides& direct,
+                                 Progress& progress) {
   std::vector<Rgb> on_sides;
   for (const double lux : direct.lux) on_sides.push_back(Rgb::grey(lux));
   RefinementOptions refinement;
   refinement.tolerance = kShotShare * options_.tolerance_pct / 100.0;
   refinement.most_shots = options_.most_shots;
   refinement.watch = options_.watch;
-  const Stopwatch solving;
+  const Stopwatch watch;
   const double before = rows_.seconds();
-  light.shots = refine_progressively(mesh_, surfaces_, on_sides, rows_, refinement, progress);
-  times_.form_factors_s += rows_.seconds() - before;
-  times_.solve_s += solving.seconds() - (rows_.seconds() - before);
+  RefinementResult result =
+      refine_progressively(mesh_, surfaces, on_sides, rows_, refinement, progress);
+  const double looking = rows_.seconds() - before;
+  times_.form_factors_s += looking;
+  times_.solve_s += watch.seconds() - looking;
+  return result;
+}
 
+std::vector<std::uint8_t> Interior::lit_points(const SideRadiosity& sides,
+                                               const DaylightOnSides& direct) const {
   std::vector<std::uint8_t> is_lit(points_.size());
   for (std::size_t s = 0; s < mesh_.sides(); ++s) {
-    const SideRadiosity& sides = light.shots.sides;
-    if (!is_any(sides.received[s]) && !(direct.lux[s] > 0.0) && !surfaces_.emits(s / 2)) continue;
+    if (!is_any(sides.received[s]) && !(direct.lux[s] > 0.0) && !is_any(sides.radiosity[s])) {
+      continue;
+    }
     for (const std::uint32_t i : points_.corner[s]) is_lit[i] = 1;
   }
-  light.is_lit = on_whole_planes(points_, std::move(is_lit));
+  return on_whole_planes(points_, std::move(is_lit));
+}
+
+const LampsOnMesh& Interior::lamps_on(std::span<const std::uint8_t> is_lit) {
+  bool is_known = lamps_known_.size() == is_lit.size();
+  for (std::size_t i = 0; i < is_lit.size() && is_known; ++i) {
+    is_known = is_lit[i] == 0 || lamps_known_[i] != 0;
+  }
+  if (!is_known) {
+    lamps_known_.assign(is_lit.begin(), is_lit.end());
+    lamps_ = lamps_on_mesh(mesh_, surfaces_, points_, emitters_, gather_, is_lit, options_.lift_m);
+  }
+  return lamps_;
+}
+
+InteriorLight Interior::light(const LightRequest& request, Progress& progress) {
+  InteriorLight light;
+  light.findings = findings_;
+  light.lamp_scale = request.lamp_scale;
+  DaylightOnSides direct(points_.size(), mesh_.sides());
+  if (request.daylight != nullptr) {
+    const auto& is_open = open_points(progress);
+    const Stopwatch watch;
+    direct = daylight_on_sides(mesh_, points_, is_open, *request.daylight, progress);
+    times_.daylight_s += watch.seconds();
+    light.findings.insert(light.findings.end(), direct.findings.begin(), direct.findings.end());
+  }
+  const SurfaceLight surfaces = scaled(surfaces_, request.lamp_scale);
+  light.shots = shoot(surfaces, direct, progress);
+  light.is_lit = lit_points(light.shots.sides, direct);
   light.points = direct.points;
   const Stopwatch looking;
   gather_.prepare(light.is_lit, progress);
   times_.form_factors_s += looking.seconds();
   const Stopwatch sweeping;
   const CornerProblem problem{mesh_,
-                              surfaces_,
+                              surfaces,
                               points_,
-                              emitters_,
+                              lamps_on(light.is_lit),
+                              request.lamp_scale,
                               direct,
-                              options_.lift_m,
                               kSweepShare * options_.tolerance_pct};
   light.corners =
       solve_at_corners(problem, gather_, light.shots.sides.radiosity, light.is_lit, progress);
@@ -116,41 +164,71 @@ InteriorLight Interior::light(const DaylightMethod* daylight, Progress& progress
         light.corners.convergence_lux;
   }
   times_.solve_s += sweeping.seconds();
+  tell_refused(light.findings);
+  tell_leaks(light);
   return light;
 }
 
-void Interior::add_reflected(const Sensors& sensors, const InteriorLight& light,
-                             SensorIlluminance& values, Progress& progress) const {
-  auto options = gather_options(options_, options_.sensor_resolution);
-  options.most_bytes = 0;
-  const PointGather gather(mesh_, sensors, options);
-  progress.begin("light from surfaces", sensors.size());
-  const std::vector<std::uint8_t> all(sensors.size(), 1);
+void Interior::tell_leaks(InteriorLight& light) {
+  if (!(light.shots.balance.escaped_lm > 0.0)) return;
+  if (!leaks_) {
+    std::vector<double> lux;
+    for (std::size_t i = 0; i < points_.size(); ++i) lux.push_back(light.points.total_lux(i));
+    leaks_ = find_light_leaks(mesh_, points_.sensors, lux, options_.lift_m, options_.shot.seed);
+  }
+  tell_light_leaks(*leaks_, light.findings);
+}
+
+void Interior::tell_refused(std::vector<Finding>& findings) const {
+  const std::size_t refused = rows_.refused() + gather_.refused();
+  if (refused == 0) return;
+  Finding finding;
+  finding.code = "form_factors_not_kept";
+  finding.severity = Severity::Note;
+  finding.what = "the memory given does not hold all form factors: " + std::to_string(refused) +
+                 " rows are found anew whenever they are needed";
+  finding.repair = "more --memory, larger elements, or a lower --resolution";
+  finding.count = refused;
+  findings.push_back(std::move(finding));
+}
+
+InteriorSensors Interior::look_from(const Sensors& sensors, Progress& progress) const {
+  InteriorSensors look;
+  look.all.assign(sensors.size(), 1);
+  look.gather = std::make_unique<PointGather>(mesh_, sensors,
+                                              gather_options(options_, options_.sensor_resolution));
+  look.gather->prepare(look.all, progress);
+  look.lamps = light_of_lamps(emitters_, sensors, look.all, options_.lift_m, kLampRays);
+  return look;
+}
+
+void Interior::add_reflected(const InteriorSensors& sensors, const InteriorLight& light,
+                             SensorIlluminance& values) const {
   const CornerLight& corners = light.corners;
-  const std::vector<Rgb> sent = reflected_part(surfaces_, corners.radiosity);
-  const auto lamps = light_of_lamps(emitters_, sensors, all, options_.lift_m, kLampRays);
-  std::vector<PointGather::Looks> looks(sensors.size());
-  std::vector<std::array<double, PointGather::kLooks>> mesh_part(sensors.size());
-  gather.for_rows(all, [&](std::size_t i, std::size_t look, const FormFactorRow& row) {
-    progress.stop_if_cancelled();
-    Rgb sum = lamps[i].lux;
-    if (surfaces_.any_emits) {
-      sum = sum + emission_left_to_row(surfaces_, emitters_, lamps[i], row);
-    }
-    for (const FormFactor& f : row) sum = sum + f.value * sent[f.side];
-    looks[i][look] = sum;
-    mesh_part[i][look] = mesh_error_lux(row, corners.spread, corners.uneven);
-  });
-  const std::vector<std::uint32_t> one_plane(sensors.size());
-  const std::vector<double> variance = pooled_variance(looks, one_plane, 1);
-  for (std::size_t i = 0; i < sensors.size(); ++i) {
+  const std::vector<Rgb> sent =
+      reflected_part(scaled(surfaces_, light.lamp_scale), corners.radiosity);
+  std::vector<PointGather::Looks> looks(values.size());
+  std::vector<std::array<double, PointGather::kLooks>> mesh_part(values.size());
+  sensors.gather->for_rows(
+      sensors.all, [&](std::size_t i, std::size_t look, const FormFactorRow& row) {
+        Rgb sum = sensors.lamps[i].lux;
+        if (surfaces_.any_emits) {
+          sum = sum + emission_left_to_row(surfaces_, emitters_, sensors.lamps[i], row);
+        }
+        sum = light.lamp_scale * sum;
+        for (const FormFactor& f : row) sum = sum + f.value * sent[f.side];
+        looks[i][look] = sum;
+        mesh_part[i][look] = mesh_error_lux(row, corners.spread, corners.uneven);
+      });
+  const std::vector<double> variance = pooled_variance(looks, facings(sensors.gather->points()));
+  for (std::size_t i = 0; i < values.size(); ++i) {
     const double mesh_lux = 0.5 * (mesh_part[i][0] + mesh_part[i][1]);
+    const double of_lamps = light.lamp_scale * light.lamp_scale * sensors.lamps[i].variance;
     values.reflected_lux[i] = luminance_of(mean_of(looks[i]));
     values.error_lux[i] =
-        std::hypot(values.error_lux[i], interval_lux(variance[i] + lamps[i].variance, mesh_lux)) +
+        std::hypot(values.error_lux[i], interval_lux(variance[i] + of_lamps, mesh_lux)) +
         corners.convergence_lux;
   }
-  progress.end(std::to_string(sensors.size()) + " sensors");
 }
 
 }  // namespace tenku

@@ -39,6 +39,8 @@ class PatchRows {
 
   /// Rows that had to be found, in all, also those found again.
   std::size_t found() const { return found_; }
+  /// How often a row was found that the memory does not hold.
+  std::size_t refused() const { return found_ - store_.kept(); }
   double seconds() const { return seconds_; }  ///< that it took
   const FormFactorStore& store() const { return store_; }
 

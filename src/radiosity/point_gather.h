@@ -54,6 +54,7 @@ class PointGather {
       std::span<const std::uint8_t> is_wanted,
       const std::function<void(std::size_t, std::size_t, const FormFactorRow&)>& use) const;
 
+  const Sensors& points() const { return points_; }
   std::size_t bytes() const { return store_.bytes(); }
   std::size_t refused() const { return refused_; }
 

@@ -56,9 +56,9 @@ TEST(RadiosityOfLamps, IsThatOfCie171) {
     const SolverScene scene = cie_171(name);
     Progress quiet;
     Interior interior(scene.mesh, scene.materials, {});
-    const InteriorLight light = interior.light(nullptr, quiet);
+    const InteriorLight light = interior.light({}, quiet);
     SensorIlluminance values(sensors.size());
-    interior.add_reflected(sensors, light, values, quiet);
+    interior.add_reflected(interior.look_from(sensors, quiet), light, values);
     WorstError worst("CIE 171 " + name + ", relative");
     for (std::size_t i = 0; i < sensors.size(); ++i) {
       const double truth = table.number(row + i, "ratio");
@@ -110,10 +110,11 @@ TEST(RadiosityOfLamps, InTheCornellBoxIsThatOfPathTracing) {
   const ReferenceTable table(TENKU_TEST_REFERENCE "/radiosity/cornell_irradiance.csv");
   for (const bool with_blocks : {false, true}) {
     const std::string name = with_blocks ? "with_blocks" : "empty_box_no_blocks";
-    const SolverScene scene = cornell_box(with_blocks, std::getenv("CELL") ? atof(getenv("CELL")) : 0.4);
+    const SolverScene scene =
+        cornell_box(with_blocks, std::getenv("CELL") ? atof(getenv("CELL")) : 0.4);
     Progress quiet;
     Interior interior(scene.mesh, scene.materials, {});
-    const InteriorLight light = interior.light(nullptr, quiet);
+    const InteriorLight light = interior.light({}, quiet);
     testing_support::expect_balanced(light.shots.balance);
     Sensors sensors;
     std::vector<Rgb> truth, sigma;
@@ -129,7 +130,7 @@ TEST(RadiosityOfLamps, InTheCornellBoxIsThatOfPathTracing) {
       sigma.push_back(rgb(row, "stderr_"));
     }
     SensorIlluminance values(sensors.size());
-    interior.add_reflected(sensors, light, values, quiet);
+    interior.add_reflected(interior.look_from(sensors, quiet), light, values);
     WorstError worst("Cornell box, " + name + ", beyond 3 sigma, relative");
     for (std::size_t i = 0; i < sensors.size(); ++i) {
       const double expected = luminance_of(truth[i]), noise = 3.0 * luminance_of(sigma[i]);

@@ -18,7 +18,9 @@ TEST(Radiosity, InAWhiteFurnaceIsTheGeometricSeries) {
     SolverScene scene;
     const std::uint32_t wall = scene.grey(rho, 100.0);
     scene.room({4, 5, 2.7}, {wall, wall, wall, wall, wall, wall}, 1.0);
-    const InteriorLight light = scene.light({.tolerance_pct = 1.0});
+    InteriorOptions options;
+    options.tolerance_pct = 1.0;
+    const InteriorLight light = scene.light(options);
     for (std::size_t side = 0; side < scene.mesh.sides(); side += 2) {
       const double radiosity = luminance_of(light.corners.radiosity[side]);
       worst.add(radiosity * (1.0 - rho) / 100.0 - 1.0, std::to_string(rho));
@@ -56,11 +58,11 @@ TEST(Radiosity, OfClosedRoomsIsTheContinuousSolution) {
     scene.room(size, {floor, ceiling, wall, wall, wall, wall}, 16.0 / size.x);
     Progress quiet;
     Interior interior(scene.mesh, scene.materials, {});
-    const InteriorLight light = interior.light(nullptr, quiet);
+    const InteriorLight light = interior.light({}, quiet);
     testing_support::expect_balanced(light.shots.balance);
     const Sensors sensors = sensors_of_room(table, room);
     SensorIlluminance values(sensors.size());
-    interior.add_reflected(sensors, light, values, quiet);
+    interior.add_reflected(interior.look_from(sensors, quiet), light, values);
     for (std::size_t i = 0; i < sensors.size(); ++i) {
       const double truth = table.number(row + i, "illuminance");
       worst.add(values.reflected_lux[i] / truth - 1.0, std::to_string(i));

@@ -74,7 +74,7 @@ class SolverScene {
 
   InteriorLight light(const InteriorOptions& options = {}) const {
     Progress quiet;
-    return Interior(mesh, materials, options).light(nullptr, quiet);
+    return Interior(mesh, materials, options).light({}, quiet);
   }
 };
 
