@@ -156,7 +156,8 @@ double EmitterLight::seen(std::uint32_t number, Vec3 position, Vec3 normal, int 
     const double away = length(way);
     point.push_back(at);
     direction.push_back((1.0 / away) * way);
-    weight.push_back(dot(way, normal) * std::abs(dot(way, lamp.normal)) / std::pow(away, 4));
+    weight.push_back(dot(way, normal) * std::abs(dot(way, lamp.normal)) /
+                     (away * away * away * away));
   }
   std::vector<std::uint32_t> met(direction.size());
   rays_->first_triangles(position, direction, met);

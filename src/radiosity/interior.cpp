@@ -16,8 +16,9 @@ namespace {
 
 constexpr double kShotShare = 0.1;   // of the tolerance: what shots may leave unshot
 constexpr double kSweepShare = 0.1;  // of the tolerance, in dim places: left by sweeps
-constexpr double kRounding = 1e-5;   // of the sum of a row
-constexpr int kLampRays = 4096;      // to a lamp that a sensor sees in part
+constexpr double kUsualTolerance = 2.0;
+constexpr double kRounding = 1e-5;  // of the sum of a row
+constexpr int kLampRays = 4096;     // to a lamp that a sensor sees in part
 
 PointGatherOptions gather_options(const InteriorOptions& options, int resolution) {
   PointGatherOptions gather;
@@ -27,6 +28,13 @@ PointGatherOptions gather_options(const InteriorOptions& options, int resolution
   gather.lift_m = options.lift_m;
   gather.most_bytes = options.most_bytes / 2;
   return gather;
+}
+
+/// The error of n strata falls as n^(-3/4), and n as the square of the resolution.
+int corner_resolution(const InteriorOptions& options) {
+  if (options.point_resolution > 0) return options.point_resolution;
+  const double finer = std::pow(kUsualTolerance / options.tolerance_pct, 2.0 / 3.0);
+  return static_cast<int>(std::lround(std::clamp(24.0 * finer, 16.0, 128.0)));
 }
 
 SurfaceLight scaled(SurfaceLight surfaces, double lamp_scale) {
@@ -66,7 +74,7 @@ Interior::Interior(const ElementMesh& mesh, const std::vector<Material>& materia
       points_(side_points(mesh)),
       method_(form_factor_method(options.form_factors, mesh, options.shot)),
       rows_(mesh, *method_, {.lift_m = options.lift_m, .most_bytes = options.most_bytes / 2}),
-      gather_(mesh, points_.sensors, gather_options(options, options.point_resolution)),
+      gather_(mesh, points_.sensors, gather_options(options, corner_resolution(options))),
       emitters_(mesh, points_, surfaces_, options.shot.seed) {}
 
 const std::vector<std::uint8_t>& Interior::open_points(Progress& progress) {
