@@ -14,13 +14,14 @@
 #include "core/random.h"
 
 namespace tenku {
-namespace {
 
 std::string place_in_file(const Scene& scene, Vec3 local) {
   const Vec3 at = scene.frame.to_file(local);
   const int digits = scene.frame.is_geographic() ? 7 : 2;
   return fmt::format("{:.{}f} {:.{}f} {:.2f}", at.x, digits, at.y, digits, at.z);
 }
+
+namespace {
 
 /// Vertices of all rings of a surface.
 std::span<const std::uint32_t> vertices_of(const Surfaces& surfaces, std::size_t s) {

@@ -184,6 +184,38 @@ std::optional<RayHit> RayVisibility::first_hit(Vec3 origin, Vec3 direction) cons
   return RayHit{device_->opaque[query.hit.primID], query.ray.tfar};
 }
 
+void RayVisibility::first_triangles(Vec3 origin, std::span<const Vec3> direction,
+                                    std::span<std::uint32_t> triangle) const {
+  expects(direction.size() == triangle.size(), "a ray has a direction and a result");
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  alignas(64) RTCRayHit16 query{};
+  alignas(64) int valid[kPacket];
+  for (std::size_t begin = 0; begin < direction.size(); begin += kPacket) {
+    const std::size_t count = std::min<std::size_t>(kPacket, direction.size() - begin);
+    for (std::size_t i = 0; i < kPacket; ++i) {
+      const Vec3 d = direction[begin + std::min(i, count - 1)];
+      valid[i] = i < count ? -1 : 0;
+      query.ray.org_x[i] = static_cast<float>(origin.x);
+      query.ray.org_y[i] = static_cast<float>(origin.y);
+      query.ray.org_z[i] = static_cast<float>(origin.z);
+      query.ray.dir_x[i] = static_cast<float>(d.x);
+      query.ray.dir_y[i] = static_cast<float>(d.y);
+      query.ray.dir_z[i] = static_cast<float>(d.z);
+      query.ray.tfar[i] = std::numeric_limits<float>::infinity();
+      query.ray.mask[i] = ~0U;
+      query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    rtcIntersect16(valid, device_->opaque_scene.get(), &context, &query);
+    for (std::size_t i = 0; i < count; ++i) {
+      triangle[begin + i] = query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
+                                ? kNoTriangle
+                                : device_->opaque[query.hit.primID[i]];
+    }
+  }
+}
+
 double RayVisibility::glass_transmission(Vec3 origin, Vec3 direction, double distance_m) const {
   if (!has_glass()) return 1.0;
   GlassQuery query{{}, this, &device_->glass, direction, 1.0};

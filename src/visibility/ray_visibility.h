@@ -46,6 +46,12 @@ class RayVisibility : public Visibility {
   bool is_occluded(Vec3 origin, Vec3 direction) const;
   /// First opaque triangle on the ray.
   std::optional<RayHit> first_hit(Vec3 origin, Vec3 direction) const;
+  /// First opaque triangle on each of many rays from one point, `kNoTriangle` where there is none.
+  /// Fast where neighbours in the list are neighbours in space.
+  /// Shape  both [ray].
+  void first_triangles(Vec3 origin, std::span<const Vec3> direction,
+                       std::span<std::uint32_t> triangle) const;
+  static constexpr std::uint32_t kNoTriangle = std::numeric_limits<std::uint32_t>::max();
   /// Product of the transmittances of the panes on the ray, whatever else is on it.
   double glass_transmission(Vec3 origin, Vec3 direction,
                             double distance_m = std::numeric_limits<double>::infinity()) const;
