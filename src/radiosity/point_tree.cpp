@@ -34,7 +34,7 @@ double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
 }
 
 PointTree::PointTree(std::span<const Vec3> points)
-    : points_(points), order_(points.size()), axis_(points.size()) {
+    : points_(points), order_(points.size()), cuts_(points.size()) {
   std::iota(order_.begin(), order_.end(), 0U);
   build(0, order_.size());
 }
@@ -51,7 +51,7 @@ void PointTree::build(std::size_t begin, std::size_t end) {
     const double p = on_axis(points_[i], axis), q = on_axis(points_[j], axis);
     return p != q ? p < q : i < j;
   });
-  axis_[middle] = axis;
+  cuts_[middle] = {on_axis(points_[order_[middle]], axis), axis};
   build(begin, middle);
   build(middle, end);
 }
@@ -72,8 +72,8 @@ std::vector<std::uint32_t> PointTree::near_segment(Vec3 from, Vec3 to, double re
       continue;
     }
     const std::size_t middle = begin + (end - begin) / 2;
-    const double plane = on_axis(points_[order_[middle]], axis_[middle]);
-    const double p = on_axis(a, axis_[middle]) - plane, q = on_axis(b, axis_[middle]) - plane;
+    const auto [cut, axis] = cuts_[middle];
+    const double p = on_axis(a, axis) - cut, q = on_axis(b, axis) - cut;
     // The part of the segment within reach of each half, with as much again for rounding.
     const auto part = [&](double side) {
       Span half{begin, end, a, b};
