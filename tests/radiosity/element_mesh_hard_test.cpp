@@ -110,6 +110,24 @@ TEST(ElementMeshHard, WallThatIsThereTwiceIsDividedOnceAndTold) {
   EXPECT_EQ(finding(made, "overlapping_surfaces"), nullptr);
 }
 
+TEST(ElementMeshHard, FacesGivenFromBothSidesAreDividedOnceAndTold) {
+  Surface room;
+  add_box(room, {6, 8, 3});
+  for (std::size_t t = 0, triangles = room.soup.size(); t < triangles; ++t) {
+    const auto [a, b, c] = room.soup.triangles[t];
+    room.soup.triangles.push_back({a, c, b});
+    room.soup.material.push_back(0);
+    room.soup.object.push_back(0);
+    room.soup.surface_type.push_back(SurfaceType::Unknown);
+  }
+  const MeshedScene made = meshed(room, {.element_m = 0.5});
+  EXPECT_NEAR(area_of(made.mesh), 180.0, 1e-10);
+  ASSERT_EQ(made.findings.size(), 1U);
+  EXPECT_EQ(made.findings[0].code, "duplicate_surfaces");
+  EXPECT_EQ(made.findings[0].severity, Severity::Note);
+  EXPECT_EQ(made.findings[0].count, 12U);
+}
+
 TEST(ElementMeshHard, SurfaceOnAPartOfAnotherIsTold) {
   Surface room;
   add_box(room, {6, 8, 3});
