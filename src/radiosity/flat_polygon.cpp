@@ -259,7 +259,8 @@ JoinTolerance JoinTolerance::of(std::span<const Vec3> vertices) {
   }
   constexpr double kFloatSteps = 0x1.0p-22;  // two steps of a float of 24 bits
   JoinTolerance tolerance;
-  tolerance.weld_m = std::max(1e-6 * extent.longest_side(), kFloatSteps * reach);
+  constexpr double kLeast_m = 1e-12;
+  tolerance.weld_m = std::max({1e-6 * extent.longest_side(), kFloatSteps * reach, kLeast_m});
   tolerance.plane_m = 10.0 * tolerance.weld_m;
   return tolerance;
 }

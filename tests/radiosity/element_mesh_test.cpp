@@ -250,6 +250,9 @@ TEST(ElementMesh, SizesThatCannotBeAreRefused) {
 TEST(ElementMesh, NothingGivesNothing) {
   EXPECT_EQ(Surface().mesh(1.0).size(), 0U);
   EXPECT_EQ(Surface().mesh(0.0).patches(), 0U);
+  Surface point;
+  point.fan({{}, {}, {}});
+  EXPECT_EQ(point.mesh(0.0).size(), 0U);
 }
 
 }  // namespace
