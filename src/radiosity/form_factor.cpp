@@ -11,8 +11,12 @@
 namespace tenku {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, FormFactorMaker*>, 1> kMethods{
-    {{"hemisphere-rays", &make_hemisphere_rays}}};
+constexpr std::array<std::pair<std::string_view, FormFactorMaker*>, 5> kMethods{
+    {{"hemisphere-scanline", &make_hemisphere_scanline},
+     {"hemisphere-zbuffer", &make_hemisphere_zbuffer},
+     {"hemisphere-rays", &make_hemisphere_rays},
+     {"hemicube", &make_hemicube},
+     {"analytic", &make_analytic_form_factors}}};
 
 constexpr int kMaximumResolution = 8192;
 

@@ -31,10 +31,16 @@ class FormFactorMethod {
   /// The name in `--form-factors` and `--method`.
   virtual std::string_view name() const = 0;
 
+  /// By how much points stand off the surface that they lie on, along its normal, in metres.
+  virtual double lift_m() const { return 1e-9; }
+
+  /// Whether rows from points are exact, but for rounding and crowds.
+  virtual bool is_exact() const { return false; }
+
   /// Of a small surface at a point: the fraction of what it sends, by Lambert's law, into the half
   /// space of its normal, that first meets each side; by reciprocity also what the irradiance
   /// there is in parts of each side's radiosity.
-  /// @param position  lifted off the surface that it lies on by as much as `lift_m` of the rays
+  /// @param position  lifted off the surface that it lies on by `lift_m` at least
   /// @param normal    unit
   virtual FormFactorRow from_point(Vec3 position, Vec3 normal) const = 0;
 };

@@ -11,6 +11,10 @@ namespace tenku {
 using FormFactorMaker = std::unique_ptr<FormFactorMethod>(const ElementMesh& mesh,
                                                           const FormFactorOptions& options);
 
+FormFactorMaker make_hemisphere_scanline;
+FormFactorMaker make_hemisphere_zbuffer;
 FormFactorMaker make_hemisphere_rays;
+FormFactorMaker make_hemicube;
+FormFactorMaker make_analytic_form_factors;
 
 }  // namespace tenku

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 
 #include "core/random.h"
 #include "radiosity/form_factor_methods.h"
 #include "radiosity/mesh_soup.h"
+#include "radiosity/point_view.h"
 #include "visibility/ray_visibility.h"
 
 namespace tenku {
@@ -61,45 +61,44 @@ class HemisphereRays : public FormFactorMethod {
   }
 
   std::string_view name() const override { return "hemisphere-rays"; }
+  double lift_m() const override { return rays_.lift_m(); }
 
   FormFactorRow from_point(Vec3 position, Vec3 normal) const override {
     const std::vector<Vec3> direction = directions_at(position, normal);
     std::vector<std::uint32_t> element(direction.size());
     rays_.first_triangles(position, direction, element);
-    std::vector<std::uint32_t> hits(2 * normal_.size());
+    std::vector<std::uint32_t> side;
+    side.reserve(direction.size());
     for (std::size_t k = 0; k < direction.size(); ++k) {
       if (element[k] == RayVisibility::kNoTriangle) continue;
       const bool back = dot(direction[k], normal_[element[k]]) > 0.0;
-      ++hits[2 * static_cast<std::size_t>(element[k]) + (back ? 1 : 0)];
+      side.push_back(2 * element[k] + (back ? 1U : 0U));
     }
-    return row_of(hits, direction.size());
+    return row_of(std::move(side), direction.size());
   }
 
  private:
   static constexpr std::uint32_t kPatterns = 8;
 
   std::vector<Vec3> directions_at(Vec3 position, Vec3 normal) const {
-    std::uint64_t key = mix_bits(seed_);
-    for (const double x : {position.x, position.y, position.z, normal.x, normal.y, normal.z}) {
-      key = mix_bits(key + std::bit_cast<std::uint64_t>(x + 0.0));
-    }
-    SampleRandom random(key, 0, 0);
-    const auto& pattern = pattern_[random.bits() % kPatterns];
-    const double turn = 2.0 * kPi * random.uniform();
-    const auto [t, b] = tangent_frame(normal);
-    const Vec3 x = std::cos(turn) * t + std::sin(turn) * b, y = cross(normal, x);
+    const std::uint64_t key = key_of(position, normal, seed_);
+    const auto& pattern = pattern_[SampleRandom(key, 1, 0).bits() % kPatterns];
+    const auto [x, y, z] = PointAxes(normal, key);
     std::vector<Vec3> direction(pattern.size());
     for (std::size_t k = 0; k < pattern.size(); ++k) {
-      direction[k] = pattern[k].x * x + pattern[k].y * y + pattern[k].z * normal;
+      direction[k] = pattern[k].x * x + pattern[k].y * y + pattern[k].z * z;
     }
     return direction;
   }
 
-  static FormFactorRow row_of(const std::vector<std::uint32_t>& hits, std::size_t rays) {
+  /// @param side  that each ray has met
+  static FormFactorRow row_of(std::vector<std::uint32_t> side, std::size_t rays) {
+    std::sort(side.begin(), side.end());
     FormFactorRow row;
-    for (std::uint32_t side = 0; side < hits.size(); ++side) {
-      if (hits[side] == 0) continue;
-      row.push_back({side, static_cast<float>(hits[side] / static_cast<double>(rays))});
+    for (std::size_t begin = 0, end = 0; begin < side.size(); begin = end) {
+      while (end < side.size() && side[end] == side[begin]) ++end;
+      row.push_back({side[begin], static_cast<float>(static_cast<double>(end - begin) /
+                                                     static_cast<double>(rays))});
     }
     return row;
   }
