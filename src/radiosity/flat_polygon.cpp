@@ -207,7 +207,10 @@ FlatPolygon Joiner::outlined(const std::vector<std::uint32_t>& members) const {
   for (const std::uint32_t f : members) {
     polygon.area_m2 += 0.5 * std::abs(dot(faces_[f].doubled_area, polygon.normal));
   }
-  polygon.rings = outline(borders_about(members, polygon.normal), vertices_, tolerance_.weld_m);
+  Outline about = outline(borders_about(members, polygon.normal), vertices_, tolerance_.weld_m);
+  polygon.rings = std::move(about.rings);
+  polygon.layers = about.layers;
+  polygon.area_m2 /= polygon.layers;
   set_frame(polygon);
   return polygon;
 }
@@ -232,7 +235,8 @@ void drop_coincident(std::vector<FlatPolygon>& polygons, std::vector<SurfaceFlaw
   std::sort(keys.begin(), keys.end());
   std::vector<std::uint8_t> is_dropped(polygons.size());
   for (std::size_t k = 1, first = 0; k < keys.size(); ++k) {
-    if (keys[k].first != keys[first].first) first = k;
+    // Without corners it is a heap of triangles, to be divided one by one.
+    if (keys[k].first.empty() || keys[k].first != keys[first].first) first = k;
     if (first == k) continue;
     const FlatPolygon &polygon = polygons[keys[k].second], &other = polygons[keys[first].second];
     is_dropped[keys[k].second] = 1;
@@ -272,6 +276,10 @@ JoinedSurfaces join_coplanar(const TriangleSoup& soup, std::span<const Material>
   joined.weld = welded(soup.vertices, tolerance.weld_m);
   std::vector<Face> faces = faces_of(soup, materials, joined.weld, tolerance.weld_m, joined.flaws);
   joined.polygons = Joiner(soup.vertices, std::move(faces), tolerance).polygons();
+  for (const FlatPolygon& p : joined.polygons) {
+    if (p.layers == 1) continue;
+    joined.flaws.push_back({SurfaceFlaw::Kind::Duplicate, p.object, p.origin, 0.0, p.object});
+  }
   drop_coincident(joined.polygons, joined.flaws);
   return joined;
 }

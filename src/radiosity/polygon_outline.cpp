@@ -1,6 +1,8 @@
 #include "radiosity/polygon_outline.h"
 
 #include <cstddef>
+#include <cstdlib>
+#include <set>
 
 #include "radiosity/point_tree.h"
 
@@ -55,17 +57,24 @@ bool comes_before(const Border& a, const Border& b) {
   return a.key() != b.key() ? a.key() < b.key() : a.face < b.face;
 }
 
-std::vector<std::vector<Vec3>> outline(std::vector<Border> borders, std::span<const Vec3> vertices,
-                                       double weld_m) {
+Outline outline(std::vector<Border> borders, std::span<const Vec3> vertices, double weld_m) {
   std::sort(borders.begin(), borders.end(), comes_before);
-  std::vector<Border> once;
-  for (std::size_t i = 0; i < borders.size();) {
-    std::size_t end = i;
-    while (end < borders.size() && borders[end].key() == borders[i].key()) ++end;
-    if ((end - i) % 2 == 1) once.push_back(borders[i]);
-    i = end;
+  std::vector<Border> odd, layered;
+  std::set<int> layers;
+  for (std::size_t i = 0, end = 0; i < borders.size(); i = end) {
+    int net = 0;  // times that it runs as the first of its kind, less those the other way
+    for (end = i; end < borders.size() && borders[end].key() == borders[i].key(); ++end) {
+      net += borders[end].from == borders[i].from ? 1 : -1;
+    }
+    if ((end - i) % 2 == 1) odd.push_back(borders[i]);
+    if (net == 0) continue;
+    layers.insert(std::abs(net));
+    layered.push_back(borders[i]);
+    if (net < 0) std::swap(layered.back().from, layered.back().to);
   }
-  return rings(std::move(once), vertices, weld_m);
+  const bool is_layered = layers.size() == 1 && *layers.begin() > 1;
+  return {rings(std::move(is_layered ? layered : odd), vertices, weld_m),
+          is_layered ? *layers.begin() : 1};
 }
 
 void set_frame(FlatPolygon& polygon) {

@@ -24,11 +24,17 @@ struct Border {
 /// Order of the undirected pieces, by their vertices.
 bool comes_before(const Border& a, const Border& b);
 
-/// Rings of the pieces that occur an odd number of times: those that have the surface on one side
-/// only. Vertices between which a ring runs straight within `weld_m` are left out.
+/// Rings about a surface.
+struct Outline {
+  std::vector<std::vector<Vec3>> rings;
+  int layers = 1;  ///< so many times the surface is there, everywhere
+};
+
+/// Rings of the pieces that have the surface on one side only: those that occur an odd number of
+/// times or, where a surface is there several times, that many times more in one sense than in the
+/// other. Vertices between which a ring runs straight within `weld_m` are left out.
 /// @param borders  with the surface to their left
-std::vector<std::vector<Vec3>> outline(std::vector<Border> borders, std::span<const Vec3> vertices,
-                                       double weld_m);
+Outline outline(std::vector<Border> borders, std::span<const Vec3> vertices, double weld_m);
 
 /// Lays origin and axes of a polygon that has its rings and its normal.
 void set_frame(FlatPolygon& polygon);

@@ -128,6 +128,33 @@ TEST(ElementMeshHard, FacesGivenFromBothSidesAreDividedOnceAndTold) {
   EXPECT_EQ(made.findings[0].count, 12U);
 }
 
+TEST(ElementMeshHard, FacesGivenTwiceWithOtherDiagonalsAreDividedOnce) {
+  Surface surface;
+  for (const double x : {0.0, 5.0}) {
+    surface.fan({{x, 0, 0}, {x + 2, 0, 0}, {x + 2, 1, 0}, {x, 1, 0}});
+    surface.fan({{x + 2, 0, 0}, {x, 0, 0}, {x, 1, 0}, {x + 2, 1, 0}});  // from below
+  }
+  const MeshedScene made = meshed(surface, {.element_m = 0.5});
+  EXPECT_NEAR(area_of(made.mesh), 4.0, 1e-12);
+  EXPECT_EQ(topology_of(made.mesh).euler(), 2);
+  ASSERT_EQ(made.findings.size(), 1U);
+  EXPECT_EQ(made.findings[0].code, "duplicate_surfaces");
+  EXPECT_EQ(made.findings[0].count, 2U);
+}
+
+TEST(ElementMeshHard, HeapsOfTrianglesKeepTheirArea) {
+  // Each square is there twice, and a quarter of it a third time.
+  Surface surface;
+  for (const double x : {0.0, 5.0}) {
+    surface.fan({{x, 0, 0}, {x + 2, 0, 0}, {x + 2, 1, 0}, {x, 1, 0}});
+    surface.fan({{x + 2, 0, 0}, {x + 2, 1, 0}, {x, 1, 0}, {x, 0, 0}});
+    surface.fan({{x, 0, 0}, {x + 2, 0, 0}, {x + 1, 0.5, 0}});
+  }
+  const MeshedScene made = meshed(surface, {.element_m = 0.5});
+  EXPECT_NEAR(area_of(made.mesh), 2.0 * (2.0 + 2.0 + 0.5), 1e-11);
+  EXPECT_NE(finding(made, "overlapping_surfaces"), nullptr);
+}
+
 TEST(ElementMeshHard, SurfaceOnAPartOfAnotherIsTold) {
   Surface room;
   add_box(room, {6, 8, 3});
