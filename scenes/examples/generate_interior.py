@@ -162,7 +162,8 @@ class Room:
         self.desk(2.1, 3.6)
         self.chair(1.0, 3.0)
         self.chair(2.7, 3.0)
-        self.solid("wood", (0.05, 0.45), (0.4, 2.4), (0.0, 1.9), bottom=False)
+        self.solid("wood", (0.05, 0.45), (0.4, 2.0), (0.0, 1.9), bottom=False)
+        self.solid("wood", (0.05, 0.45), (2.1, 2.9), (0.0, 0.8), bottom=False)
         for z in (1.2, 1.6) if shelves else ():
             self.solid("wood", (3.68, 3.98), (0.8, 2.3), (z, z + 0.03))
         self.level("light", (1.4, 2.6), (2.4, 2.7), HEIGHT - 0.02, False)

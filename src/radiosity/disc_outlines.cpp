@@ -8,25 +8,43 @@ namespace tenku {
 DiscOutlines::DiscOutlines(const ElementMesh& mesh, const PointView& view, double polyline_deg)
     : mesh_(mesh),
       view_(view),
-      cos_polyline_(std::cos(Angle::degrees(polyline_deg).in_radians())),
-      sin_polyline_(std::sin(Angle::degrees(polyline_deg).in_radians())) {}
+      polyline_rad_(Angle::degrees(polyline_deg).in_radians()),
+      used_rad_(polyline_rad_),
+      cos_polyline_(std::cos(polyline_rad_)),
+      sin_polyline_(std::sin(polyline_rad_)) {}
 
 std::span<const PlanePoint> DiscOutlines::operator()(const SeenSide& seen) {
   point_.clear();
   arc_.clear();
   normal_ = {};
-  const ConvexPolygon polygon = view_.polygon(mesh_, seen);
-  if (polygon.empty()) return {};
-  const Vec3 start = normalized(polygon[0]);
-  Vec3 from = start;
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const Vec3 to = k + 1 < polygon.size() ? normalized(polygon[k + 1]) : start;
+  ConvexPolygon direction;
+  for (const Vec3& corner : view_.polygon(mesh_, seen)) direction.add(normalized(corner));
+  if (direction.empty()) return {};
+  set_polyline(direction);
+  for (std::size_t k = 0; k < direction.size(); ++k) {
+    const Vec3 from = direction[k], to = direction[k + 1 < direction.size() ? k + 1 : 0];
     normal_.add(cross(from, to));
     add_arc(from, to);
     arc_.resize(point_.size(), static_cast<std::uint8_t>(k));
-    from = to;
   }
   return point_;
+}
+
+/// A segment over the angle t cuts t^2 / 8 off at most: a part of the width, which is the area over
+/// the longest edge.
+void DiscOutlines::set_polyline(const ConvexPolygon& direction) {
+  constexpr double kPart = 0.03, kMostPieces = 64.0;  // of the width; of an edge
+  double doubled_area = 0.0, longest2 = 0.0;
+  for (std::size_t k = 0; k < direction.size(); ++k) {
+    const Vec3 a = direction[k], b = direction[k + 1 < direction.size() ? k + 1 : 0];
+    doubled_area += a.x * b.y - a.y * b.x;
+    longest2 = std::max(longest2, (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
+  }
+  const double cut2 = 4.0 * kPart * std::abs(doubled_area);  // times the longest edge
+  if (cut2 * cut2 >= longest2 * std::pow(polyline_rad_, 4.0) && used_rad_ == polyline_rad_) return;
+  const double narrow = longest2 > 0.0 ? std::sqrt(cut2 / std::sqrt(longest2)) : polyline_rad_;
+  used_rad_ = std::min(polyline_rad_, std::max(narrow, std::sqrt(longest2) / kMostPieces));
+  cos_polyline_ = std::cos(used_rad_), sin_polyline_ = std::sin(used_rad_);
 }
 
 /// On the line x^2 + z^2 is 1 - y^2, and on the arc n.x x + n.z z is -n.y y.

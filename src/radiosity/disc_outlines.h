@@ -47,11 +47,13 @@ class DiscOutlines {
   Range range();
 
  private:
+  void set_polyline(const ConvexPolygon& direction);
   void add_arc(Vec3 from, Vec3 to);
 
   const ElementMesh& mesh_;
   const PointView& view_;
-  double cos_polyline_, sin_polyline_;
+  double polyline_rad_, used_rad_;      ///< asked for, and of the outline at hand
+  double cos_polyline_, sin_polyline_;  ///< of `used_rad_`
   std::vector<PlanePoint> point_;
   std::vector<std::uint8_t> arc_;  ///< [point]: number of the edge that the next segment is on
   ConvexPolygon normal_;           ///< of the planes through the edges and the origin

@@ -9,25 +9,13 @@
 #include "core/extent.h"
 #include "core/parallel.h"
 #include "radiosity/point_tree.h"
+#include "radiosity/polygon_outline.h"
 #include "radiosity/soup_faces.h"
 
 namespace tenku {
 namespace {
 
 constexpr std::uint32_t kNoGroup = 0xffffffffU;
-
-/// A straight piece of a face's border, from vertex to vertex in the sense of the face.
-struct Border {
-  std::uint32_t from, to, face;
-
-  std::pair<std::uint32_t, std::uint32_t> key() const {
-    return {std::min(from, to), std::max(from, to)};
-  }
-};
-
-bool comes_before(const Border& a, const Border& b) {
-  return a.key() != b.key() ? a.key() < b.key() : a.face < b.face;
-}
 
 /// @param tan  of the angle allowed between the lines of `a` and `b`
 bool are_nearly_parallel(Vec3 a, Vec3 b, double tan) {
@@ -177,8 +165,7 @@ class Joiner {
   }
 
   FlatPolygon outlined(const std::vector<std::uint32_t>& members) const;
-  std::vector<Border> outline(const std::vector<std::uint32_t>& members, Vec3 normal) const;
-  std::vector<std::vector<Vec3>> rings(std::vector<Border> outline) const;
+  std::vector<Border> borders_about(const std::vector<std::uint32_t>& members, Vec3 normal) const;
 
   std::span<const Vec3> vertices_;
   std::vector<Face> faces_;
@@ -190,8 +177,9 @@ class Joiner {
   std::vector<std::uint32_t> group_;
 };
 
-/// Borders that only one of the members has, with the surface to their left.
-std::vector<Border> Joiner::outline(const std::vector<std::uint32_t>& members, Vec3 normal) const {
+/// Borders of all members, with the surface to their left.
+std::vector<Border> Joiner::borders_about(const std::vector<std::uint32_t>& members,
+                                          Vec3 normal) const {
   std::vector<Border> all;
   for (const std::uint32_t f : members) {
     const bool is_turned = dot(faces_[f].doubled_area, normal) < 0.0;
@@ -201,73 +189,7 @@ std::vector<Border> Joiner::outline(const std::vector<std::uint32_t>& members, V
       all.push_back(border);
     }
   }
-  std::sort(all.begin(), all.end(), comes_before);
-  std::vector<Border> once;
-  for (std::size_t i = 0; i < all.size();) {
-    std::size_t end = i;
-    while (end < all.size() && all[end].key() == all[i].key()) ++end;
-    if ((end - i) % 2 == 1) once.push_back(all[i]);
-    i = end;
-  }
-  return once;
-}
-
-/// Leaves out the vertices between which a ring runs straight on.
-std::vector<Vec3> corners_of(const std::vector<Vec3>& ring, double reach_m) {
-  std::vector<Vec3> corners;
-  const std::size_t n = ring.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vec3 before = corners.empty() ? ring[(i + n - 1) % n] : corners.back();
-    const Vec3 after = ring[(i + 1) % n];
-    const bool is_straight = distance_to_segment(ring[i], before, after) <= reach_m &&
-                             dot(ring[i] - before, after - ring[i]) > 0.0;
-    if (!is_straight) corners.push_back(ring[i]);
-  }
-  return corners;
-}
-
-std::vector<std::vector<Vec3>> Joiner::rings(std::vector<Border> outline) const {
-  std::sort(outline.begin(), outline.end(), [](const Border& a, const Border& b) {
-    return std::pair(a.from, a.to) < std::pair(b.from, b.to);
-  });
-  std::vector<std::uint8_t> is_used(outline.size());
-  const auto next_from = [&](std::uint32_t v) {
-    auto i = static_cast<std::size_t>(
-        std::lower_bound(outline.begin(), outline.end(), v,
-                         [](const Border& b, std::uint32_t key) { return b.from < key; }) -
-        outline.begin());
-    while (i < outline.size() && outline[i].from == v && is_used[i] != 0) ++i;
-    return i < outline.size() && outline[i].from == v ? i : outline.size();
-  };
-  std::vector<std::vector<Vec3>> made;
-  for (std::size_t start = 0; start < outline.size(); ++start) {
-    std::vector<Vec3> ring;
-    for (std::size_t i = start; i < outline.size() && is_used[i] == 0;
-         i = next_from(outline[i].to)) {
-      is_used[i] = 1;
-      ring.push_back(vertices_[outline[i].from]);
-    }
-    ring = corners_of(ring, tolerance_.weld_m);
-    if (ring.size() >= 3) made.push_back(std::move(ring));
-  }
-  return made;
-}
-
-/// Lays the axes: the normal is there already.
-void set_frame(FlatPolygon& polygon) {
-  double longest = 0.0;
-  for (const auto& ring : polygon.rings) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Vec3 edge = ring[(i + 1) % ring.size()] - ring[i];
-      // An edge must be clearly longer to be preferred, lest rounding choose.
-      if (!(length(edge) > (1.0 + 1e-6) * longest)) continue;
-      longest = length(edge);
-      polygon.origin = ring[i];
-      polygon.along = edge;
-    }
-  }
-  polygon.along = normalized(polygon.along - dot(polygon.along, polygon.normal) * polygon.normal);
-  polygon.across = cross(polygon.normal, polygon.along);
+  return all;
 }
 
 FlatPolygon Joiner::outlined(const std::vector<std::uint32_t>& members) const {
@@ -285,7 +207,10 @@ FlatPolygon Joiner::outlined(const std::vector<std::uint32_t>& members) const {
   for (const std::uint32_t f : members) {
     polygon.area_m2 += 0.5 * std::abs(dot(faces_[f].doubled_area, polygon.normal));
   }
-  polygon.rings = rings(outline(members, polygon.normal));
+  Outline about = outline(borders_about(members, polygon.normal), vertices_, tolerance_.weld_m);
+  polygon.rings = std::move(about.rings);
+  polygon.layers = about.layers;
+  polygon.area_m2 /= polygon.layers;
   set_frame(polygon);
   return polygon;
 }
@@ -310,12 +235,14 @@ void drop_coincident(std::vector<FlatPolygon>& polygons, std::vector<SurfaceFlaw
   std::sort(keys.begin(), keys.end());
   std::vector<std::uint8_t> is_dropped(polygons.size());
   for (std::size_t k = 1, first = 0; k < keys.size(); ++k) {
-    if (keys[k].first != keys[first].first) first = k;
+    // Without corners it is a heap of triangles, to be divided one by one.
+    if (keys[k].first.empty() || keys[k].first != keys[first].first) first = k;
     if (first == k) continue;
-    const FlatPolygon& polygon = polygons[keys[k].second];
+    const FlatPolygon &polygon = polygons[keys[k].second], &other = polygons[keys[first].second];
     is_dropped[keys[k].second] = 1;
-    flaws.push_back({SurfaceFlaw::Kind::Coincident, polygon.object, polygon.origin, 0.0,
-                     polygons[keys[first].second].object});
+    const auto kind = polygon.material == other.material ? SurfaceFlaw::Kind::Duplicate
+                                                         : SurfaceFlaw::Kind::Coincident;
+    flaws.push_back({kind, polygon.object, polygon.origin, 0.0, other.object});
   }
   std::size_t kept = 0;
   for (std::size_t i = 0; i < polygons.size(); ++i) {
@@ -336,7 +263,8 @@ JoinTolerance JoinTolerance::of(std::span<const Vec3> vertices) {
   }
   constexpr double kFloatSteps = 0x1.0p-22;  // two steps of a float of 24 bits
   JoinTolerance tolerance;
-  tolerance.weld_m = std::max(1e-6 * extent.longest_side(), kFloatSteps * reach);
+  constexpr double kLeast_m = 1e-12;
+  tolerance.weld_m = std::max({1e-6 * extent.longest_side(), kFloatSteps * reach, kLeast_m});
   tolerance.plane_m = 10.0 * tolerance.weld_m;
   return tolerance;
 }
@@ -348,6 +276,10 @@ JoinedSurfaces join_coplanar(const TriangleSoup& soup, std::span<const Material>
   joined.weld = welded(soup.vertices, tolerance.weld_m);
   std::vector<Face> faces = faces_of(soup, materials, joined.weld, tolerance.weld_m, joined.flaws);
   joined.polygons = Joiner(soup.vertices, std::move(faces), tolerance).polygons();
+  for (const FlatPolygon& p : joined.polygons) {
+    if (p.layers == 1) continue;
+    joined.flaws.push_back({SurfaceFlaw::Kind::Duplicate, p.object, p.origin, 0.0, p.object});
+  }
   drop_coincident(joined.polygons, joined.flaws);
   return joined;
 }

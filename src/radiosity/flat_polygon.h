@@ -27,7 +27,8 @@ struct FlatPolygon {
   Vec3 origin, along, across, normal;    ///< right-handed, unit
   std::uint32_t material = 0, object = 0;
   std::vector<std::uint32_t> triangles;  ///< joined here, by index into the soup
-  double area_m2 = 0.0;                  ///< sum of those of the triangles
+  int layers = 1;                        ///< so many times the triangles fill the rings
+  double area_m2 = 0.0;                  ///< sum of those of the triangles, by `layers`
 
   PlanePoint flat(Vec3 p) const { return {dot(p - origin, along), dot(p - origin, across)}; }
   Vec3 lifted(PlanePoint p) const { return origin + p.x * along + p.y * across; }

@@ -20,7 +20,24 @@ constexpr std::array<std::pair<std::string_view, FormFactorMaker*>, 5> kMethods{
 
 constexpr int kMaximumResolution = 8192;
 
-void check(const FormFactorOptions& options) {
+FormFactorMaker& maker_named(std::string_view name) {
+  for (const auto& [known, make] : kMethods) {
+    if (known == name) return *make;
+  }
+  throw InputError("there is no form-factor method '" + std::string(name) + "'" +
+                   suggestion(name, form_factor_method_names()));
+}
+
+}  // namespace
+
+std::vector<std::string_view> form_factor_method_names() {
+  std::vector<std::string_view> names;
+  for (const auto& [name, maker] : kMethods) names.push_back(name);
+  return names;
+}
+
+void check_form_factor_method(std::string_view name, const FormFactorOptions& options) {
+  maker_named(name);
   if (options.resolution < 2 || options.resolution > kMaximumResolution) {
     throw InputError("the resolution of form factors is from 2 to " +
                      std::to_string(kMaximumResolution) + ", not " +
@@ -33,22 +50,10 @@ void check(const FormFactorOptions& options) {
   }
 }
 
-}  // namespace
-
-std::vector<std::string_view> form_factor_method_names() {
-  std::vector<std::string_view> names;
-  for (const auto& [name, maker] : kMethods) names.push_back(name);
-  return names;
-}
-
 std::unique_ptr<FormFactorMethod> form_factor_method(std::string_view name, const ElementMesh& mesh,
                                                      const FormFactorOptions& options) {
-  check(options);
-  for (const auto& [known, make] : kMethods) {
-    if (known == name) return make(mesh, options);
-  }
-  throw InputError("there is no form-factor method '" + std::string(name) + "'" +
-                   suggestion(name, form_factor_method_names()));
+  check_form_factor_method(name, options);
+  return maker_named(name)(mesh, options);
 }
 
 }  // namespace tenku

@@ -55,8 +55,11 @@ struct FormFactorOptions {
 /// The names that `form_factor_method` knows.
 std::vector<std::string_view> form_factor_method_names();
 
-/// @param mesh  kept by reference
 /// @throws InputError for a name that no method has, and for an option out of its range
+void check_form_factor_method(std::string_view name, const FormFactorOptions& options);
+
+/// @param mesh  kept by reference
+/// @throws InputError as `check_form_factor_method`, ResourceError as `RayVisibility`
 std::unique_ptr<FormFactorMethod> form_factor_method(std::string_view name, const ElementMesh& mesh,
                                                      const FormFactorOptions& options);
 

@@ -59,6 +59,7 @@ void PartQueue::refine() {
   for (std::size_t points = 3 * kPointsAPart;
        points + 2 * kPointsAPart <= task_.options.most_points; points += 2 * kPointsAPart) {
     if (is_done()) return;
+    if (task_.options.progress != nullptr) task_.options.progress->stop_if_cancelled();
     std::pop_heap(part_.begin(), part_.end(), kLessDoubt);
     const Part whole = std::move(part_.back());
     part_.pop_back();
@@ -107,8 +108,10 @@ std::array<PartQueue::Part, 2> PartQueue::halves(const Part& part) const {
   }
   for (Part& one : half) one.row = row_of(one.corner);
   SparseRow change = combined(part.row, 1.0, combined(half[0].row, 1.0, half[1].row, 1.0), -1.0);
-  // Of what the halves together differ by, a quarter is what each may still be wrong by.
-  for (SparseEntry& entry : change) entry.value = 0.25 * std::abs(entry.value);
+  // Of what the halves together differ by, a quarter is what each may still be wrong by; and as
+  // they may agree by chance, some of what the whole was in doubt of.
+  for (SparseEntry& entry : change) entry.value = std::abs(entry.value);
+  change = combined(change, 0.25, part.error, 0.025);
   for (Part& one : half) {
     one.error = change;
     add_doubt_of_edges(one);
@@ -144,7 +147,7 @@ double PartQueue::doubt_of(const Part& part) const {
 }
 
 bool PartQueue::is_done() const {
-  if (part_.size() < 6) return false;  // of the first three nothing is known
+  if (part_.front().doubt > 1e200) return false;  // nothing is known of it
   for (Column column = 0; column < error_.size(); ++column) {
     if (error_[column] > tolerance(column)) return false;
   }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/progress.h"
 #include "radiosity/form_factor.h"
 #include "radiosity/sightlines.h"
 #include "radiosity/target_edges.h"
@@ -21,19 +22,20 @@ struct PatchFormFactorOptions {
   /// Parts of a patch are smaller than the distance to the edges of what they see, divided by this:
   /// the five-times rule.
   double distance_ratio = 5.0;
-  double relative_tolerance = 1e-3;  ///< of each form factor, 0 for none
-  double absolute_tolerance = 1e-5;  ///< what is smaller does not matter
-  std::size_t most_points = 1000;    ///< of each element of the patch
+  double relative_tolerance = 1e-3;    ///< of each form factor, 0 for none
+  double absolute_tolerance = 1e-5;    ///< what is smaller does not matter
+  std::size_t most_points = 1000;      ///< of each element of the patch
+  const Progress* progress = nullptr;  ///< asked now and then whether to stop; borrowed
 };
 
 /// Rows of patches by any method.
 ///
-/// A row is the mean of rows from points on the patch. Each element of it is a part with three
-/// points; parts are cut in two, those first that leave most in doubt, until each form factor is
-/// within its tolerance or the points are used up. In doubt is by how much the rows of two halves
-/// differ from that of the whole, and, where the five-times rule is broken, what might have been
-/// missed near an edge. Parts are cut across the way to the edge that is too near, so that a few
-/// narrow strips do along a touching edge.
+/// A row is the mean of rows from points on the patch. Each third of an element of it is a part
+/// with four points; parts are cut in two, those first that leave most in doubt, until each form
+/// factor is within its tolerance or the points are used up. In doubt is by how much the rows of
+/// two halves differ from that of the whole, and, where the five-times rule is broken, what might
+/// have been missed near an edge. Parts are cut across the way to the edge that is too near, so
+/// that a few narrow strips do along a touching edge.
 ///
 /// With a method that is exact at points, pairs of elements between which nothing stands are taken
 /// out and integrated exactly (`exchange_area`), in meshes small enough for `Sightlines`.
@@ -49,6 +51,7 @@ class PatchFormFactors {
                    std::vector<Column> column, const PatchFormFactorOptions& options);
 
   /// Row of a side of a patch, in rising order of column.
+  /// @throws Cancelled if the user asked to stop
   std::vector<PatchFormFactor> row(std::size_t patch, bool back) const;
 
  private:

@@ -25,7 +25,12 @@ class PointTree {
 
   std::span<const Vec3> points_;
   std::vector<std::uint32_t> order_;
-  std::vector<std::uint8_t> axis_;  ///< across which the range with that middle is parted
+  /// Where the range with that middle is parted.
+  struct Cut {
+    double at = 0.0;
+    std::uint8_t axis = 0;
+  };
+  std::vector<Cut> cuts_;
 };
 
 /// The first of the points that lie within `reach_m` of each one: itself, if none is before it.

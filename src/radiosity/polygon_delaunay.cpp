@@ -74,27 +74,42 @@ std::vector<double> crossings(const std::vector<Segment>& outline, double y) {
   return at;
 }
 
+std::vector<Segment> segments_near_level(const std::vector<Segment>& outline, double y,
+                                         double reach) {
+  std::vector<Segment> near;
+  for (const Segment& s : outline) {
+    const auto [low, high] = std::minmax(s.a.y, s.b.y);
+    if (low <= y + reach && high >= y - reach) near.push_back(s);
+  }
+  return near;
+}
+
+/// Appends the points of one row, `spacing` apart, that are inside and clear of the outline.
+void append_row(const std::vector<Segment>& outline, double y, double shift, double spacing,
+                std::vector<PlanePoint>& points) {
+  const double clear = kLeastFromOutline * spacing;
+  const auto near = segments_near_level(outline, y, clear);
+  const auto at = crossings(near, y);
+  for (std::size_t i = 0; i + 1 < at.size(); i += 2) {
+    for (double k = std::ceil(at[i] / spacing - shift); (k + shift) * spacing < at[i + 1]; ++k) {
+      const PlanePoint p{(k + shift) * spacing, y};
+      const bool is_clear = std::all_of(near.begin(), near.end(),
+                                        [&](const Segment& s) { return distance(p, s) >= clear; });
+      if (is_clear) points.push_back(p);
+    }
+  }
+}
+
 /// Corners of equilateral triangles inside a polygon, clear of its outline.
 std::vector<PlanePoint> lattice(const std::vector<Segment>& outline, double spacing) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Segment& s : outline) low = std::min(low, s.a.y), high = std::max(high, s.a.y);
   const double row_height = spacing * std::numbers::sqrt3 / 2.0;
   const double rows = std::max(1.0, std::round((high - low) / row_height));
-  const double step = (high - low) / rows;
   std::vector<PlanePoint> points;
   for (double row = 1.0; row < rows; ++row) {
-    const double y = low + row * step;
-    const auto at = crossings(outline, y);
     const double shift = std::fmod(row, 2.0) * 0.5;
-    for (std::size_t i = 0; i + 1 < at.size(); i += 2) {
-      for (double k = std::ceil(at[i] / spacing - shift); (k + shift) * spacing < at[i + 1]; ++k) {
-        const PlanePoint p{(k + shift) * spacing, y};
-        const bool is_clear = std::all_of(outline.begin(), outline.end(), [&](const Segment& s) {
-          return distance(p, s) >= kLeastFromOutline * spacing;
-        });
-        if (is_clear) points.push_back(p);
-      }
-    }
+    append_row(outline, low + row * (high - low) / rows, shift, spacing, points);
   }
   return points;
 }

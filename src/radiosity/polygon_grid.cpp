@@ -161,6 +161,28 @@ class Grid {
   std::vector<std::uint8_t> is_placed_;
 };
 
+/// Whether every edge runs along one of the lines through corners.
+bool follows(const FlatPolygon& polygon, std::span<const double> x, std::span<const double> y) {
+  for (const auto& ring : polygon.rings) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const PlanePoint a = polygon.flat(ring[i]), b = polygon.flat(ring[(i + 1) % ring.size()]);
+      const bool is_upright = nearest(x, a.x) == nearest(x, b.x);
+      const bool is_level = nearest(y, a.y) == nearest(y, b.y);
+      if (is_upright == is_level) return false;
+    }
+  }
+  return true;
+}
+
+/// Lines from the many corners of a jagged outline would cut it finer than it needs.
+bool are_too_many(const Lines& columns, const Lines& rows, double square) {
+  constexpr double kMostTimes = 3.0, kFew = 64.0;
+  const double needed = (columns.at.back() - columns.at.front()) *
+                        (rows.at.back() - rows.at.front()) / (square * square);
+  return static_cast<double>(columns.cells()) * static_cast<double>(rows.cells()) >
+         kMostTimes * needed + kFew;
+}
+
 }  // namespace
 
 std::optional<PolygonMesh> grid_mesh(const FlatPolygon& polygon, double element_m, double apart_m) {
@@ -174,31 +196,19 @@ std::optional<PolygonMesh> grid_mesh(const FlatPolygon& polygon, double element_
   }
   x = distinct(std::move(x), apart_m);
   y = distinct(std::move(y), apart_m);
-  if (x.size() < 2 || y.size() < 2) return std::nullopt;
-  for (const auto& ring : polygon.rings) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const PlanePoint a = polygon.flat(ring[i]), b = polygon.flat(ring[(i + 1) % ring.size()]);
-      const bool is_upright = nearest(x, a.x) == nearest(x, b.x);
-      const bool is_level = nearest(y, a.y) == nearest(y, b.y);
-      if (is_upright == is_level) return std::nullopt;
-    }
-  }
+  if (x.size() < 2 || y.size() < 2 || !follows(polygon, x, y)) return std::nullopt;
   const bool is_rectangle = x.size() == 2 && y.size() == 2;
   const double square = std::numbers::sqrt2 / 2.0 * element_m;
   const CellSize cell =
       is_rectangle ? best_cell(x[1] - x[0], y[1] - y[0], element_m) : CellSize{square, square};
   const Lines columns = divided(x, cell.width), rows = divided(y, cell.height);
-  // Lines from the many corners of a jagged outline would cut it finer than it needs.
-  constexpr double kMostTimes = 3.0, kFew = 64.0;
-  const double needed = (x.back() - x.front()) * (y.back() - y.front()) / (square * square);
-  const double cells = static_cast<double>(columns.cells()) * static_cast<double>(rows.cells());
-  if (!is_rectangle && cells > kMostTimes * needed + kFew) return std::nullopt;
+  if (!is_rectangle && are_too_many(columns, rows, square)) return std::nullopt;
   Grid grid(columns, rows);
+  const auto node_of = [&](Vec3 corner) {
+    const PlanePoint p = polygon.flat(corner);
+    return Node{columns.main[nearest(x, p.x)], rows.main[nearest(y, p.y)]};
+  };
   for (const auto& ring : polygon.rings) {
-    const auto node_of = [&](Vec3 corner) {
-      const PlanePoint p = polygon.flat(corner);
-      return Node{columns.main[nearest(x, p.x)], rows.main[nearest(y, p.y)]};
-    };
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const Vec3 from = ring[i], to = ring[(i + 1) % ring.size()];
       grid.add_edge(node_of(from), node_of(to), from, to);

@@ -49,10 +49,11 @@ void drop_coincident(std::vector<Face>& faces, std::span<const Vec3> vertices,
   for (std::size_t k = 1, first = 0; k < keys.size(); ++k) {
     if (keys[k].first != keys[first].first) first = k;
     if (first == k) continue;
-    const Face& face = faces[keys[k].second];
+    const Face &face = faces[keys[k].second], &kept_one = faces[keys[first].second];
     is_dropped[keys[k].second] = 1;
-    flaws.push_back({SurfaceFlaw::Kind::Coincident, face.object, middle_of(face.corner, vertices),
-                     0.0, faces[keys[first].second].object});
+    const auto kind = face.material == kept_one.material ? SurfaceFlaw::Kind::Duplicate
+                                                         : SurfaceFlaw::Kind::Coincident;
+    flaws.push_back({kind, face.object, middle_of(face.corner, vertices), 0.0, kept_one.object});
   }
   std::size_t kept = 0;
   for (std::size_t f = 0; f < faces.size(); ++f) {

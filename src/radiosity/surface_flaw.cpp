@@ -32,12 +32,18 @@ Finding finding_of(const SurfaceFlaw& flaw, const Scene& scene) {
       says("faces_without_area", Severity::Note,
            "triangles are narrower than the tolerance with which vertices are joined", "left out");
       break;
+    case Kind::Duplicate:
+      says("duplicate_surfaces", Severity::Note,
+           fmt::format("surfaces lie in the place of others of the same material (first: [{}])",
+                       other),
+           "the later ones are left out; nothing is lost, as elements have two sides");
+      break;
     case Kind::Coincident:
       says("coincident_surfaces", Severity::Warning,
-           fmt::format("surfaces lie in the place of others (first: [{}]), with one material each",
+           fmt::format("surfaces lie in the place of others of another material (first: [{}])",
                        other),
-           "the later ones are left out; leave one in the file, or move them apart by the "
-           "thickness of the wall");
+           "the later ones are left out, and their materials; leave one in the file, or move them "
+           "apart by the thickness of the wall");
       break;
     case Kind::Overlap:
       says("overlapping_surfaces", Severity::Warning,

@@ -14,7 +14,8 @@ namespace tenku {
 struct SurfaceFlaw {
   enum class Kind {
     NoArea,      ///< a triangle without width
-    Coincident,  ///< a surface in the place of another, left out; `other` is that one's object
+    Duplicate,   ///< a surface in the place of another of its material, left out
+    Coincident,  ///< a surface in the place of one of another material, of `other`; left out
     Overlap,     ///< a surface that lies on a part of another, of `other`
     Gap,         ///< an edge that stops `size_m` before the surface of `other`
     Sliver,      ///< a polygon that is `size_m` wide

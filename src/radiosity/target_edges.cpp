@@ -115,7 +115,7 @@ TargetEdges::TargetEdges(const ElementMesh& mesh, const std::vector<Column>& col
 std::vector<TargetEdges::Doubt> TargetEdges::doubts(std::span<const Vec3> part, std::uint32_t side,
                                                     double ratio,
                                                     const std::vector<char>& wanted) const {
-  constexpr double kSome = 0.2;  // of what the strip might bring at most
+  constexpr double kSome = 0.2, kStep = 0.003;  // of what may rise at most
   const Vec3 normal = mesh_.normal(side), centre = centre_of(part);
   double size = 0.0;
   for (const Vec3& c : part) size = std::max(size, length(c - centre));
@@ -145,7 +145,8 @@ std::vector<TargetEdges::Doubt> TargetEdges::doubts(std::span<const Vec3> part, 
       const double near = std::max(distance, 1e-300);
       const double at_most = std::min(1.0, mesh_.area_m2(e) / (kPi * near * near)) *
                              std::min(1.0, rises / near) * std::min(1.0, stands / near);
-      const double missed = std::min(strip / extent, extent * extent / (strip * strip));
+      const double missed =
+          std::min(std::max(kStep, strip / extent), extent * extent / (strip * strip));
       doubts.push_back({column_[seen], kSome * at_most * missed, across});
     }
   }

@@ -31,9 +31,9 @@ class TargetEdges {
   };
 
   /// What the mean over a convex part of a surface may be wrong by, because of edges that it comes
-  /// nearer to than `ratio` times its extent: something may rise there from nothing to all in a
-  /// strip as narrow as the edge is near or, where it touches, as its element is narrow, and the
-  /// strip may fall between points of the triangle.
+  /// nearer to than `ratio` times its extent: something may rise there from nothing to all within a
+  /// strip as narrow as the edge is near or, where it touches, as its element is narrow, between
+  /// points of the part.
   /// @param side    whose plane the part lies in
   /// @param wanted  [side]
   std::vector<Doubt> doubts(std::span<const Vec3> part, std::uint32_t side, double ratio,

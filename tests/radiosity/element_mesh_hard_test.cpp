@@ -2,6 +2,7 @@
 #include <random>
 
 #include "radiosity/mesh_checks.h"
+#include "radiosity/point_tree.h"
 
 namespace tenku::testing_support {
 namespace {
@@ -107,6 +108,51 @@ TEST(ElementMeshHard, WallThatIsThereTwiceIsDividedOnceAndTold) {
   EXPECT_EQ(told->object, "second");
   EXPECT_NE(told->what.find("[first]"), std::string::npos);
   EXPECT_EQ(finding(made, "overlapping_surfaces"), nullptr);
+}
+
+TEST(ElementMeshHard, FacesGivenFromBothSidesAreDividedOnceAndTold) {
+  Surface room;
+  add_box(room, {6, 8, 3});
+  for (std::size_t t = 0, triangles = room.soup.size(); t < triangles; ++t) {
+    const auto [a, b, c] = room.soup.triangles[t];
+    room.soup.triangles.push_back({a, c, b});
+    room.soup.material.push_back(0);
+    room.soup.object.push_back(0);
+    room.soup.surface_type.push_back(SurfaceType::Unknown);
+  }
+  const MeshedScene made = meshed(room, {.element_m = 0.5});
+  EXPECT_NEAR(area_of(made.mesh), 180.0, 1e-10);
+  ASSERT_EQ(made.findings.size(), 1U);
+  EXPECT_EQ(made.findings[0].code, "duplicate_surfaces");
+  EXPECT_EQ(made.findings[0].severity, Severity::Note);
+  EXPECT_EQ(made.findings[0].count, 12U);
+}
+
+TEST(ElementMeshHard, FacesGivenTwiceWithOtherDiagonalsAreDividedOnce) {
+  Surface surface;
+  for (const double x : {0.0, 5.0}) {
+    surface.fan({{x, 0, 0}, {x + 2, 0, 0}, {x + 2, 1, 0}, {x, 1, 0}});
+    surface.fan({{x + 2, 0, 0}, {x, 0, 0}, {x, 1, 0}, {x + 2, 1, 0}});  // from below
+  }
+  const MeshedScene made = meshed(surface, {.element_m = 0.5});
+  EXPECT_NEAR(area_of(made.mesh), 4.0, 1e-12);
+  EXPECT_EQ(topology_of(made.mesh).euler(), 2);
+  ASSERT_EQ(made.findings.size(), 1U);
+  EXPECT_EQ(made.findings[0].code, "duplicate_surfaces");
+  EXPECT_EQ(made.findings[0].count, 2U);
+}
+
+TEST(ElementMeshHard, HeapsOfTrianglesKeepTheirArea) {
+  // Each square is there twice, and a quarter of it a third time.
+  Surface surface;
+  for (const double x : {0.0, 5.0}) {
+    surface.fan({{x, 0, 0}, {x + 2, 0, 0}, {x + 2, 1, 0}, {x, 1, 0}});
+    surface.fan({{x + 2, 0, 0}, {x + 2, 1, 0}, {x, 1, 0}, {x, 0, 0}});
+    surface.fan({{x, 0, 0}, {x + 2, 0, 0}, {x + 1, 0.5, 0}});
+  }
+  const MeshedScene made = meshed(surface, {.element_m = 0.5});
+  EXPECT_NEAR(area_of(made.mesh), 2.0 * (2.0 + 2.0 + 0.5), 1e-11);
+  EXPECT_NE(finding(made, "overlapping_surfaces"), nullptr);
 }
 
 TEST(ElementMeshHard, SurfaceOnAPartOfAnotherIsTold) {
@@ -217,6 +263,27 @@ TEST(ElementMeshHard, RoundColumnStaysRound) {
   const ElementMesh mesh = column.mesh(10.0);
   EXPECT_EQ(mesh.size(), 512U);
   EXPECT_NEAR(area_of(mesh), 256.0 * 3.0 * 2.0 * std::sin(kPi / 256.0), 1e-10);
+}
+
+TEST(ElementMeshHard, PointsNearSegmentsAreFoundAsBySearchOfAll) {
+  std::mt19937 chance(2);
+  std::uniform_real_distribution<double> at(0.0, 10.0);
+  std::vector<Vec3> points;
+  // Half of them on the lattice of whole metres, where many have a coordinate in common.
+  for (int k = 0; k < 2000; ++k) {
+    const Vec3 p{at(chance), at(chance), at(chance)};
+    points.push_back(k % 2 == 0 ? p : Vec3{std::floor(p.x), std::floor(p.y), std::floor(p.z)});
+  }
+  const PointTree tree(points);
+  for (int k = 0; k < 300; ++k) {
+    const Vec3 a = points[static_cast<std::size_t>(7 * k % 2000)],
+               b = points[static_cast<std::size_t>(11 * k % 2000)];
+    std::vector<std::uint32_t> near;
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+      if (distance_to_segment(points[i], a, b) <= 0.3) near.push_back(i);
+    }
+    EXPECT_EQ(tree.near_segment(a, b, 0.3), near);
+  }
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 // Surfaces divided into elements: areas, outlines and topology are those of the polygons, known
 // from elementary geometry.
+#include <random>
+
 #include "core/error.h"
 #include "core/parallel.h"
 #include "radiosity/mesh_checks.h"
@@ -110,6 +112,43 @@ TEST(ElementMesh, TrapeziumIsWellShaped) {
   EXPECT_GE(least_angle_deg(mesh), 20.0);
 }
 
+/// Polygon about the origin whose corners lie on an ellipse; nothing where an edge is shorter than
+/// `edge_m` or a corner sharper than 60 degrees.
+std::vector<Vec3> round_polygon(std::mt19937& chance, double edge_m) {
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  const int corners = 5 + static_cast<int>(6.0 * share(chance));
+  const double rx = 1.0 + 3.0 * share(chance), ry = 1.0 + 3.0 * share(chance);
+  std::vector<Vec3> ring;
+  for (int k = 0; k < corners; ++k) {
+    const double turn = 2.0 * kPi * (k + 0.7 * share(chance)) / corners;
+    ring.push_back({rx * std::cos(turn), ry * std::sin(turn), 0.0});
+  }
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Vec3 before = ring[(k + 1) % ring.size()] - ring[k];
+    const Vec3 after = ring[(k + 2) % ring.size()] - ring[(k + 1) % ring.size()];
+    if (length(before) < edge_m || angle_between(before, after) > Angle::degrees(120)) return {};
+  }
+  return ring;
+}
+
+TEST(ElementMesh, AnglesAreTwentyDegreesAtLeastWhereThePolygonLets) {
+  std::mt19937 chance(5);
+  int polygons = 0;
+  for (int k = 0; k < 300; ++k) {
+    const double element_m = 0.2 + 0.002 * (k % 200);
+    const auto ring = round_polygon(chance, element_m);
+    if (ring.empty()) continue;
+    Surface surface;
+    surface.fan(ring);
+    const ElementMesh mesh = surface.mesh(element_m);
+    EXPECT_GE(least_angle_deg(mesh), 20.0) << "polygon " << k;
+    EXPECT_LE(longest_edge(mesh), element_m * (1.0 + 1e-9));
+    EXPECT_EQ(topology_of(mesh).euler(), 1);
+    ++polygons;
+  }
+  EXPECT_GE(polygons, 200);
+}
+
 TEST(ElementMesh, StarIsOnePolygonInItsPlane) {
   const Surface surface = turned(fan_about_origin(star(7, 2.0, 4.0)));
   const ElementMesh mesh = surface.mesh(0.6, 1.5);
@@ -211,6 +250,9 @@ TEST(ElementMesh, SizesThatCannotBeAreRefused) {
 TEST(ElementMesh, NothingGivesNothing) {
   EXPECT_EQ(Surface().mesh(1.0).size(), 0U);
   EXPECT_EQ(Surface().mesh(0.0).patches(), 0U);
+  Surface point;
+  point.fan({{}, {}, {}});
+  EXPECT_EQ(point.mesh(0.0).size(), 0U);
 }
 
 }  // namespace
