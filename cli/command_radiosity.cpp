@@ -141,7 +141,7 @@ class RadiosityRun {
       sensors_ = lit_.to_local(in_file_);
     }
     const Stopwatch watch;
-    look_ = interior_.look_from(sensors_, context_.progress);
+    look_ = interior_.look_from(sensors_);
     sensors_s_ += watch.seconds();
   }
 
@@ -189,7 +189,7 @@ class RadiosityRun {
                                             daylight.options, daylight.method, context_.progress);
       values = std::move(direct.values);
     }
-    interior_.add_reflected(look_, run.light, values);
+    interior_.add_reflected(look_, run.light, values, context_.progress);
     sensors_s_ += watch.seconds();
     count_missed(values, run.open_lux);
     const bool has_factor = options_.work_plane.has_value();

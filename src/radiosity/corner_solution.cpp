@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "core/parallel.h"
 
@@ -13,7 +14,7 @@ namespace {
 constexpr std::size_t kMostSweeps = 100, kGrain = 16;
 constexpr int kLampRays = 64;       // to a lamp that a corner sees in part
 constexpr double kDarkShare = 0.3;  // of the brightest corner: less is inside of something
-constexpr double kNear = 0.3, kWideView = 0.03, kDoubt = 0.05;
+constexpr double kNear = 0.3, kWideView = 0.03, kDoubt = 0.05, kCurved = 0.4;
 
 double lum(Rgb c) { return luminance_of(c); }
 
@@ -33,10 +34,11 @@ constexpr std::uint8_t kAllOpen = 7;
 
 class CornerSolver {
  public:
-  CornerSolver(const CornerProblem& problem, const PointGather& gather, std::span<const Rgb> start,
+  CornerSolver(const CornerProblem& problem, const PointGather& gather, CornerLight start,
                std::span<const std::uint8_t> is_lit)
       : problem_(problem), gather_(gather), is_lit_(is_lit) {
-    light_.radiosity.assign(start.begin(), start.end());
+    light_.radiosity = std::move(start.radiosity);
+    light_.open = std::move(start.open);
     light_.lux.resize(is_lit.size());
   }
 
@@ -64,9 +66,9 @@ class CornerSolver {
       change_ = std::max(change_, std::abs(lum(now) - lum(light_.lux[i])));
       light_.lux[i] = now;
     }
-    if (open_.empty()) {  // settled once: a sweep is linear
+    if (light_.open.empty()) {  // settled once: a sweep is linear
       for (const auto& corner : problem_.points.corner) {
-        open_.push_back(open_corners(corner, gathered_));
+        light_.open.push_back(open_corners(corner, gathered_));
       }
     }
     for (std::size_t s = 0; s < light_.radiosity.size(); ++s) {
@@ -83,16 +85,16 @@ class CornerSolver {
   Rgb mean_of_open(std::size_t side, const At& at) const {
     Rgb sum;
     for (std::size_t k = 0; k < 3; ++k) {
-      if ((open_[side] >> k & 1U) != 0) sum = sum + at(problem_.points.corner[side][k]);
+      if ((light_.open[side] >> k & 1U) != 0) sum = sum + at(problem_.points.corner[side][k]);
     }
-    return (1.0 / std::popcount(open_[side])) * sum;
+    return (1.0 / std::popcount(light_.open[side])) * sum;
   }
 
   Rgb mean_lux(std::size_t side) const {
     const DaylightOnSides& daylight = problem_.daylight;
     const Rgb at_corners = mean_of_open(side, [&](std::uint32_t i) { return steady(i); });
     const Rgb in_middle = Rgb::grey(daylight.middle_lux[side]) + middle_of_lamps(side);
-    const bool is_hidden = open_[side] != kAllOpen && !(lum(in_middle) > 0.0);
+    const bool is_hidden = light_.open[side] != kAllOpen && !(lum(in_middle) > 0.0);
     return mean_of_open(side, [&](std::uint32_t i) { return gathered_[i]; }) +
            (is_hidden || problem_.lamps.has_middle[side] == 0
                 ? at_corners
@@ -136,8 +138,9 @@ class CornerSolver {
       const Rgb at_corners = mean_of_open(s, [&](std::uint32_t i) { return steady(i); });
       const double middle = daylight.middle_lux[s] + lum(middle_of_lamps(s)),
                    rho = lum(surfaces.reflectance[s / 2]);
-      light_.spread[s] = rho * (open_[s] == kAllOpen ? *high - *low : *high);
-      if (lamps.has_middle[s] != 0) light_.uneven[s] = rho * std::abs(lum(at_corners) - middle);
+      light_.spread[s] = rho * (light_.open[s] == kAllOpen ? *high - *low : *high);
+      light_.uneven[s] = kCurved * light_.spread[s];
+      if (lamps.has_middle[s] != 0) light_.uneven[s] += rho * std::abs(lum(at_corners) - middle);
     }
     light_.variance = pooled_variance(looks_, points.plane);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -157,7 +160,6 @@ class CornerSolver {
   const PointGather& gather_;
   std::span<const std::uint8_t> is_lit_;
   CornerLight light_;
-  std::vector<std::uint8_t> open_;         ///< [element side], bits of its corners
   std::vector<PointGather::Looks> looks_;  ///< [point]
   std::vector<Rgb> gathered_;              ///< [point], by rows
   double change_ = 0.0;
@@ -194,9 +196,9 @@ LampsOnMesh lamps_on_mesh(const ElementMesh& mesh, const SurfaceLight& surfaces,
 }
 
 CornerLight solve_at_corners(const CornerProblem& problem, const PointGather& gather,
-                             std::span<const Rgb> start, std::span<const std::uint8_t> is_lit,
+                             CornerLight start, std::span<const std::uint8_t> is_lit,
                              Progress& progress) {
-  return CornerSolver(problem, gather, start, is_lit).solve(progress);
+  return CornerSolver(problem, gather, std::move(start), is_lit).solve(progress);
 }
 
 double mesh_error_lux(const FormFactorRow& row, std::span<const double> spread,

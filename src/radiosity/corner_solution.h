@@ -43,13 +43,14 @@ struct CornerProblem {
 
 /// Light at corners and what sides send by it.
 struct CornerLight {
-  std::vector<Rgb> lux;          ///< [point], all but daylight straight from sun and sky
-  std::vector<double> variance;  ///< [point], lux^2: of form factors and lamps
-  std::vector<double> mesh_lux;  ///< [point], half-width: of what sides send
-  std::vector<Rgb> radiosity;    ///< [element side], lm/m2
-  std::vector<double> spread;    ///< [element side], lm/m2: radiosity between corners, at most
-  std::vector<double> uneven;    ///< [element side], lm/m2: doubt of the mean radiosity
-  double convergence_lux = 0.0;  ///< bound on the light still under way, anywhere
+  std::vector<Rgb> lux;            ///< [point], all but daylight straight from sun and sky
+  std::vector<double> variance;    ///< [point], lux^2: of form factors and lamps
+  std::vector<double> mesh_lux;    ///< [point], half-width: of what sides send
+  std::vector<Rgb> radiosity;      ///< [element side], lm/m2
+  std::vector<std::uint8_t> open;  ///< [element side], bits of the corners that count
+  std::vector<double> spread;      ///< [element side], lm/m2: radiosity between corners, at most
+  std::vector<double> uneven;      ///< [element side], lm/m2: doubt of the mean radiosity
+  double convergence_lux = 0.0;    ///< bound on the light still under way, anywhere
   std::size_t sweeps = 0;
 };
 
@@ -66,12 +67,13 @@ struct CornerLight {
 ///            its plane.
 ///          mesh: kNear of the spread of a side counts as far as the side is wide in the view of
 ///            the point (form factor over itself and kWideView), for who sees it only in part sees
-///            another mean; and kDoubt of how far corners and middle differ.
-/// @param start    radiosity [element side]
+///            another mean; and kDoubt of how far corners and middle differ, taken as kCurved of
+///            the spread where only corners are known.
+/// @param start    radiosity [element side], and which corners count if that is known already
 /// @param is_lit   [point]
 /// @throws Cancelled
 CornerLight solve_at_corners(const CornerProblem& problem, const PointGather& gather,
-                             std::span<const Rgb> start, std::span<const std::uint8_t> is_lit,
+                             CornerLight start, std::span<const std::uint8_t> is_lit,
                              Progress& progress);
 
 /// Half-width for one row: see the above.

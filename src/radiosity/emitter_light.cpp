@@ -15,7 +15,7 @@
 namespace tenku {
 namespace {
 
-constexpr int kFirstRays = 16;  // that must agree
+constexpr int kFirstRays = 16;  // at most, that must agree
 constexpr int kMoreRays = 4;    // times as many where they do not
 constexpr double kFar = 4.0;    // radii, beyond which a lamp is a point for the first look
 constexpr double kEdgeVariance = 0.19;
@@ -177,18 +177,19 @@ EmitterLight::Direct EmitterLight::at(Vec3 position, Vec3 normal, int rays) cons
     sum += rough.back() * luminance_of(lamp.exitance);
   }
   Direct direct;
+  const int first = std::min(kFirstRays, rays / 8);
   if (std::accumulate(rough.begin(), rough.end(), 0.0) > kMostView) return direct;
   for (std::uint32_t k = 0; k < lamp_.size(); ++k) {
     const Lamp& lamp = lamp_[k];
     const double lm = luminance_of(lamp.exitance);
     if (!(rough[k] * lm > 0.0) || rough[k] * lm < kFaint * sum) continue;
     direct.lamp.push_back(k);
-    double share = seen(k, position, normal, kFirstRays);
+    double share = seen(k, position, normal, first);
     if (!(share > 0.0)) continue;
     const double whole = factor(lamp, position, normal);
     if (share < 1.0 - 1e-12) {
       double deviation = 0.0;
-      for (int n = kMoreRays * kFirstRays;; n *= kMoreRays) {
+      for (int n = kMoreRays * first;; n *= kMoreRays) {
         share = seen(k, position, normal, n);
         deviation = whole * std::sqrt(kEdgeVariance / std::pow(n, 1.5));
         const double light = whole * share * lm + luminance_of(direct.lux);

@@ -18,6 +18,14 @@ bool FormFactorStore::fits(const FormFactorRow& factors) const {
   return bytes_ + bytes_of(factors) <= most_bytes_;
 }
 
+void FormFactorStore::forget(std::size_t row) {
+  if (is_kept_[row] == 0) return;
+  bytes_ -= bytes_of(row_[row]);
+  row_[row] = {};
+  is_kept_[row] = 0;
+  --kept_;
+}
+
 void FormFactorStore::keep(std::size_t row, FormFactorRow factors) {
   expects(is_kept_[row] == 0 && fits(factors), "a row is kept once, where it fits");
   bytes_ += bytes_of(factors);

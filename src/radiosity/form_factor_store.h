@@ -26,6 +26,8 @@ class FormFactorStore {
   }
   /// Whether there is memory left for it.
   bool fits(const FormFactorRow& factors) const;
+  /// Gives the memory of a row back.
+  void forget(std::size_t row);
   /// @param factors  that fit
   void keep(std::size_t row, FormFactorRow factors);
 

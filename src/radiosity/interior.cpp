@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kShotShare = 0.1;   // of the tolerance: what shots may leave unshot
 constexpr double kSweepShare = 0.1;  // of the tolerance, in dim places: left by sweeps
+constexpr double kDimShare = 0.1;    // of the mean light: dimmer corners need not be exact
 constexpr double kUsualTolerance = 2.0;
 constexpr double kRounding = 1e-5;  // of the sum of a row
 constexpr int kLampRays = 4096;     // to a lamp that a sensor sees in part
@@ -162,8 +163,17 @@ InteriorLight Interior::light(const LightRequest& request, Progress& progress) {
                               request.lamp_scale,
                               direct,
                               kSweepShare * options_.tolerance_pct};
-  light.corners =
-      solve_at_corners(problem, gather_, light.shots.sides.radiosity, light.is_lit, progress);
+  CornerLight start;
+  start.radiosity = light.shots.sides.radiosity;
+  light.corners = solve_at_corners(problem, gather_, std::move(start), light.is_lit, progress);
+  for (auto rough = rough_points(light); gather_.look_finer(rough); rough = rough_points(light)) {
+    const Stopwatch again;
+    gather_.prepare(rough, progress);
+    times_.form_factors_s += again.seconds();
+    times_.solve_s -= again.seconds();
+    light.corners =
+        solve_at_corners(problem, gather_, std::move(light.corners), light.is_lit, progress);
+  }
   for (std::size_t i = 0; i < points_.size(); ++i) {
     light.points.reflected_lux[i] = luminance_of(light.corners.lux[i]);
     light.points.error_lux[i] =
@@ -175,6 +185,24 @@ InteriorLight Interior::light(const LightRequest& request, Progress& progress) {
   tell_refused(light.findings);
   tell_leaks(light);
   return light;
+}
+
+std::vector<std::uint8_t> Interior::rough_points(const InteriorLight& light) const {
+  const CornerLight& corners = light.corners;
+  const auto lux = [&](std::size_t i) {
+    return light.points.sun_lux[i] + light.points.sky_lux[i] + luminance_of(corners.lux[i]);
+  };
+  double sum = 0.0, lit = 0.0;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    sum += lux(i);
+    lit += luminance_of(corners.lux[i]) > 0.0;
+  }
+  const ErrorBudget budget(options_.tolerance_pct, kDimShare * sum / std::max(lit, 1.0));
+  std::vector<std::uint8_t> rough(points_.size());
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    rough[i] = interval_lux(corners.variance[i], 0.0) > budget.allowed_lux(lux(i));
+  }
+  return rough;
 }
 
 void Interior::tell_leaks(InteriorLight& light) {
@@ -200,35 +228,49 @@ void Interior::tell_refused(std::vector<Finding>& findings) const {
   findings.push_back(std::move(finding));
 }
 
-InteriorSensors Interior::look_from(const Sensors& sensors, Progress& progress) const {
+InteriorSensors Interior::look_from(const Sensors& sensors) const {
   InteriorSensors look;
   look.all.assign(sensors.size(), 1);
   look.gather = std::make_unique<PointGather>(mesh_, sensors,
                                               gather_options(options_, options_.sensor_resolution));
-  look.gather->prepare(look.all, progress);
   look.lamps = light_of_lamps(emitters_, sensors, look.all, options_.lift_m, kLampRays);
   return look;
 }
 
-void Interior::add_reflected(const InteriorSensors& sensors, const InteriorLight& light,
-                             SensorIlluminance& values) const {
+void Interior::add_reflected(InteriorSensors& sensors, const InteriorLight& light,
+                             SensorIlluminance& values, Progress& progress) const {
   const CornerLight& corners = light.corners;
   const std::vector<Rgb> sent =
       reflected_part(scaled(surfaces_, light.lamp_scale), corners.radiosity);
   std::vector<PointGather::Looks> looks(values.size());
   std::vector<std::array<double, PointGather::kLooks>> mesh_part(values.size());
-  sensors.gather->for_rows(
-      sensors.all, [&](std::size_t i, std::size_t look, const FormFactorRow& row) {
-        Rgb sum = sensors.lamps[i].lux;
-        if (surfaces_.any_emits) {
-          sum = sum + emission_left_to_row(surfaces_, emitters_, sensors.lamps[i], row);
-        }
-        sum = light.lamp_scale * sum;
-        for (const FormFactor& f : row) sum = sum + f.value * sent[f.side];
-        looks[i][look] = sum;
-        mesh_part[i][look] = mesh_error_lux(row, corners.spread, corners.uneven);
-      });
-  const std::vector<double> variance = pooled_variance(looks, facings(sensors.gather->points()));
+  std::vector<double> variance;
+  std::vector<std::uint8_t> rough = sensors.all;
+  double floor_lux = 0.0;
+  do {
+    sensors.gather->prepare(rough, progress);
+    sensors.gather->for_rows(rough, [&](std::size_t i, std::size_t look, const FormFactorRow& row) {
+      Rgb sum = sensors.lamps[i].lux;
+      if (surfaces_.any_emits) {
+        sum = sum + emission_left_to_row(surfaces_, emitters_, sensors.lamps[i], row);
+      }
+      sum = light.lamp_scale * sum;
+      for (const FormFactor& f : row) sum = sum + f.value * sent[f.side];
+      looks[i][look] = sum;
+      mesh_part[i][look] = mesh_error_lux(row, corners.spread, corners.uneven);
+    });
+    variance = pooled_variance(looks, facings(sensors.gather->points()));
+    if (floor_lux == 0.0) {
+      for (const auto& look : looks) {
+        floor_lux += 0.01 * luminance_of(mean_of(look)) / static_cast<double>(looks.size());
+      }
+    }
+    const ErrorBudget budget(0.5 * options_.tolerance_pct, floor_lux);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double lux = values.sun_lux[i] + values.sky_lux[i] + luminance_of(mean_of(looks[i]));
+      rough[i] = interval_lux(variance[i], 0.0) > budget.allowed_lux(lux);
+    }
+  } while (sensors.gather->look_finer(rough));
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double mesh_lux = 0.5 * (mesh_part[i][0] + mesh_part[i][1]);
     const double of_lamps = light.lamp_scale * light.lamp_scale * sensors.lamps[i].variance;

@@ -87,10 +87,11 @@ class Interior {
 
   /// Sensors that look into the mesh once for many lights.
   /// @param sensors  kept by reference
-  InteriorSensors look_from(const Sensors& sensors, Progress& progress) const;
-  /// Adds the light from sides to direct light on sensors.
-  void add_reflected(const InteriorSensors& sensors, const InteriorLight& light,
-                     SensorIlluminance& values) const;
+  InteriorSensors look_from(const Sensors& sensors) const;
+  /// Adds the light from sides to direct light on sensors. Those that are not within half of the
+  /// tolerance look more finely, and stay so.
+  void add_reflected(InteriorSensors& sensors, const InteriorLight& light,
+                     SensorIlluminance& values, Progress& progress) const;
 
   const SidePoints& points() const { return points_; }
   const SurfaceLight& surfaces() const { return surfaces_; }
@@ -105,6 +106,8 @@ class Interior {
   std::vector<std::uint8_t> lit_points(const SideRadiosity& sides,
                                        const DaylightOnSides& direct) const;
   const LampsOnMesh& lamps_on(std::span<const std::uint8_t> is_lit);
+  /// Corners whose form factors are less exact than the tolerance.
+  std::vector<std::uint8_t> rough_points(const InteriorLight& light) const;
   void tell_leaks(InteriorLight& light);
   void tell_refused(std::vector<Finding>& findings) const;
 

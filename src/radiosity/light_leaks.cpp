@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 
 #include "core/extent.h"
 #include "core/parallel.h"
@@ -17,7 +18,8 @@
 namespace tenku {
 namespace {
 
-constexpr int kCells = 24;  // a side of the square of directions
+constexpr int kCells = 24;      // a side of the square of directions
+constexpr int kBisections = 8;  // between two rays, to the edge
 constexpr std::size_t kMostPoints = 500;
 constexpr double kCellShare = 0.02;     // of the longest side: edges so near are one opening
 constexpr double kWidest = 0.01;        // of the longest side
@@ -42,7 +44,8 @@ Vec3 direction(int i, int j, Vec3 normal, const TangentFrame& frame, SampleRando
 
 class Look {
  public:
-  Look(const RayVisibility& rays, Vec3 origin, Vec3 normal, SampleRandom random) : origin_(origin) {
+  Look(const RayVisibility& rays, Vec3 origin, Vec3 normal, SampleRandom random)
+      : rays_(rays), origin_(origin) {
     const TangentFrame frame = tangent_frame(normal);
     for (int i = 0; i < kCells; ++i) {
       for (int j = 0; j < kCells; ++j) {
@@ -59,15 +62,9 @@ class Look {
     for (int i = 0; i < kCells; ++i) {
       for (int j = 0; j < kCells; ++j) {
         if (distance_[at(i, j)] != kNothing) continue;
-        double nearest = kNothing;
-        for (const auto& [di, dj] :
-             std::array<std::array<int, 2>, 4>{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}}) {
-          if (i + di < 0 || i + di >= kCells) continue;
-          const double d = distance_[at(i + di, j + dj)];
-          if (d != kNothing && (nearest == kNothing || d < nearest)) nearest = d;
-        }
-        if (nearest == kNothing) continue;
-        passages.push_back({origin_ + nearest * way_[at(i, j)], light / (kCells * kCells)});
+        const std::optional<std::size_t> beside = farthest_hit_beside(i, j);
+        if (!beside) continue;
+        passages.push_back({edge_between(*beside, at(i, j)), light / (kCells * kCells)});
       }
     }
   }
@@ -78,6 +75,35 @@ class Look {
     return static_cast<std::size_t>(i * kCells + (j + kCells) % kCells);
   }
 
+  std::optional<std::size_t> farthest_hit_beside(int i, int j) const {
+    std::optional<std::size_t> farthest;
+    for (const auto& [di, dj] :
+         std::array<std::array<int, 2>, 4>{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}}) {
+      if (i + di < 0 || i + di >= kCells) continue;
+      const std::size_t k = at(i + di, j + dj);
+      if (distance_[k] == kNothing) continue;
+      if (!farthest || distance_[k] > distance_[*farthest]) farthest = k;
+    }
+    return farthest;
+  }
+
+  /// Where a surface ends between a ray that meets it and one that meets nothing.
+  Vec3 edge_between(std::size_t met, std::size_t passed) const {
+    Vec3 hit_way = way_[met], free_way = way_[passed];
+    double distance = distance_[met];
+    for (int step = 0; step < kBisections; ++step) {
+      const Vec3 middle = normalized(hit_way + free_way);
+      if (const auto hit = rays_.first_hit(origin_, middle)) {
+        hit_way = middle;
+        distance = hit->distance_m;
+      } else {
+        free_way = middle;
+      }
+    }
+    return origin_ + distance * hit_way;
+  }
+
+  const RayVisibility& rays_;
   Vec3 origin_;
   std::vector<Vec3> way_;
   std::vector<double> distance_;

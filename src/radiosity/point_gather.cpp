@@ -15,27 +15,51 @@ constexpr std::uint64_t kSecondSeed = 0x9e3779b97f4a7c15U;
 
 }  // namespace
 
-PointGather::PointGather(const ElementMesh& mesh, const Sensors& points,
-                         const PointGatherOptions& options)
-    : points_(points),
-      lift_m_(options.lift_m),
-      outward_(mesh, options.lift_m),
-      store_(kLooks * points.size(), options.most_bytes) {
+PointGather::Methods PointGather::methods(const ElementMesh& mesh,
+                                          const PointGatherOptions& options, std::size_t level) {
   FormFactorOptions half = options.form_factors;
-  half.resolution = std::max(
-      2, static_cast<int>(std::lround(half.resolution / std::sqrt(static_cast<double>(kLooks)))));
-  for (auto& method : method_) {
+  const double share = std::sqrt(static_cast<double>(kLooks));
+  half.resolution = std::max(2, static_cast<int>(std::lround(half.resolution / share)));
+  half.resolution <<= level;
+  Methods made;
+  for (auto& method : made) {
     method = form_factor_method(options.method, mesh, half);
     // Methods that do not sample differ by their resolution instead.
     half.seed += kSecondSeed;
     half.resolution += 1;
   }
+  return made;
+}
+
+PointGather::PointGather(const ElementMesh& mesh, const Sensors& points,
+                         const PointGatherOptions& options)
+    : points_(points),
+      lift_m_(options.lift_m),
+      outward_(mesh, options.lift_m),
+      mesh_(mesh),
+      options_(options),
+      level_(points.size()),
+      store_(kLooks * points.size(), options.most_bytes) {
+  method_[0] = methods(mesh, options, 0);
+}
+
+bool PointGather::look_finer(std::span<const std::uint8_t> is_wanted) {
+  bool any = false;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (is_wanted[i] == 0 || level_[i] + 1U >= kLevels) continue;
+    Methods& finer = method_[++level_[i]];
+    if (!finer[0]) finer = methods(mesh_, options_, level_[i]);
+    for (std::size_t look = 0; look < kLooks; ++look) store_.forget(kLooks * i + look);
+    any = true;
+  }
+  return any;
 }
 
 FormFactorRow PointGather::find(std::size_t point, std::size_t look) const {
   const Vec3 normal = points_.normal[point];
   if (outward_.faces_nothing(points_.position[point], normal)) return {};
-  return method_[look]->from_point(points_.position[point] + lift_m_ * normal, normal);
+  return method_[level_[point]][look]->from_point(points_.position[point] + lift_m_ * normal,
+                                                  normal);
 }
 
 void PointGather::prepare(std::span<const std::uint8_t> is_wanted, Progress& progress) {

@@ -43,6 +43,10 @@ class PointGather {
   /// @throws Cancelled
   void prepare(std::span<const std::uint8_t> is_wanted, Progress& progress);
 
+  /// Lets these points look with four times the samples from now on, twice at most.
+  /// @return  whether any did not look so finely already
+  bool look_finer(std::span<const std::uint8_t> is_wanted);
+
   /// Sum of form factor times value over the sides, by both looks [point]; zero for points that
   /// are not wanted.
   /// @param of_side  [element side]
@@ -64,8 +68,16 @@ class PointGather {
   const Sensors& points_;
   double lift_m_;
   OutwardView outward_;
-  std::array<std::unique_ptr<FormFactorMethod>, kLooks> method_;
-  FormFactorStore store_;  ///< [look of point]
+  static constexpr std::size_t kLevels = 3;
+  using Methods = std::array<std::unique_ptr<FormFactorMethod>, kLooks>;
+  static Methods methods(const ElementMesh& mesh, const PointGatherOptions& options,
+                         std::size_t level);
+
+  const ElementMesh& mesh_;
+  PointGatherOptions options_;
+  std::array<Methods, kLevels> method_;  ///< by how finely they look; made when they are needed
+  std::vector<std::uint8_t> level_;      ///< [point]
+  FormFactorStore store_;                ///< [look of point]
   std::size_t refused_ = 0;
 };
 
