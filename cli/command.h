@@ -42,6 +42,7 @@ CommandBody make_inspect_command(CLI::App& app);
 CommandBody make_illuminance_command(CLI::App& app);
 CommandBody make_plan_command(CLI::App& app);
 CommandBody make_render_command(CLI::App& app);
+CommandBody make_radiosity_command(CLI::App& app);
 CommandBody make_form_factors_command(CLI::App& app);
 CommandBody make_run_command(CLI::App& app);
 

@@ -9,10 +9,10 @@
 #include "cli/sensor_options.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
-#include "illuminance/planned_light.h"
 #include "output/field_writer.h"
 #include "output/table_writer.h"
 #include "study/illuminance_field.h"
+#include "study/scene_light.h"
 
 namespace tenku {
 namespace {
@@ -54,8 +54,9 @@ int illuminance(const IlluminanceCommandOptions& options, const CommandContext& 
   const LitScene lit = load_lit_scene(options.lit, context.progress);
   const PlacedSensors placed = place_sensors(options.sensors, lit);
   const IlluminanceOptions how = illuminance_options(options.lit, context.options);
-  const IlluminanceResult result = illuminate(placed.sensors, lit.engines(), lit.source(), how,
-                                              light_method(options.lit), context.progress);
+  SceneLight light(lit, reflection_named(options.lit.reflection));
+  const IlluminanceResult result =
+      light.illuminate(placed.sensors, how, light_method(options.lit), context.progress);
   write_result(options, lit, placed, result);
   return close_calculation(context.options, lit,
                            {.start = start,

@@ -39,6 +39,9 @@ void add_lit_scene_options(CLI::App& app, LitSceneOptions& options) {
                  "error asked for, percent of each value (default 2)");
   app.add_option("--bounces", options.bounces,
                  "diffuse bounces of the reflected light, 0 for none (default 5)");
+  app.add_option("--reflection", options.reflection,
+                 "reflected light: auto, radiosity or paths; auto takes radiosity in rooms "
+                 "(default auto)");
   app.add_option("--engine", options.engine,
                  "visibility engine: auto, rays or shadow-maps (default auto)");
   app.add_option("--gl", options.gl, "what draws shadow maps: auto, osmesa or egl (default auto)");
@@ -54,6 +57,7 @@ void add_out_option(CLI::App& app, LitSceneOptions& options) {
 
 LitScene load_lit_scene(const LitSceneOptions& options, Progress& progress) {
   light_method(options);  // refuses names before the scene is read
+  reflection_named(options.reflection);
   std::optional<PartitionRequest> partition;
   if (options.partition.is_given()) partition = resolve_partition(options.partition);
   ReadOptions read = read_options(options.scene);

@@ -25,7 +25,7 @@ struct LitSceneOptions {
   PartitionOptions partition;
   double tolerance_pct = 2.0;
   int bounces = 5;
-  std::string engine = "auto", lod = "budget", gl = "auto", out;
+  std::string engine = "auto", lod = "budget", gl = "auto", reflection = "auto", out;
   double mu = 1.0;
 };
 

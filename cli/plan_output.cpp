@@ -35,6 +35,7 @@ nlohmann::ordered_json json_of(const std::vector<PlannedRegion>& regions) {
                     {"reach_m", number(r.reach_m)},
                     {"left_out_lux", r.left_out_lux},
                     {"is_shared", r.is_shared},
+                    {"interpolated", r.interpolated},
                     {"rays_s", number(r.rays_s)},
                     {"shared_s", number(r.shared_s)},
                     {"maps_s", number(r.maps_s)},
@@ -61,6 +62,10 @@ std::string table_of(const std::vector<PlannedRegion>& regions) {
                     in_words(r.maps_s, "s"), in_words(r.measured_s, "s"),
                     in_words(r.predicted_error_lux, "lx"), in_words(r.measured_error_lux, "lx"));
     text += "  " + r.why;
+    if (r.interpolated > 0) {
+      text += fmt::format("\n        left out: the sky of {} sensors, taken from those around",
+                          r.interpolated);
+    }
     if (!std::isfinite(r.reach_m)) continue;
     text += fmt::format(
         "\n        left out: casters farther than {:.0f} m, at most {:.3g} lx for 19 of 20 sensors",

@@ -169,16 +169,6 @@ std::string place_of(const Sensors& sensors, std::size_t i) {
   return text.str();
 }
 
-/// After the reflected light has been added: what is still dark, and what is not exact enough.
-void judge_whole(const Sensors& sensors, const ErrorBudget& budget, IlluminanceResult& result) {
-  const SensorIlluminance& values = result.values;
-  if (budget.allowed_lux(0.0) > 0.0) find_dark_sensors(sensors, values, result.findings);
-  for (std::size_t s = 0; s < values.size(); ++s) {
-    result.is_missed[s] |= !(values.error_lux[s] <= budget.allowed_lux(values.total_lux(s)));
-  }
-  tell_missed(result);
-}
-
 }  // namespace
 
 bool is_dark(const SensorIlluminance& values, std::size_t sensor) {
@@ -211,6 +201,17 @@ void tell_missed(IlluminanceResult& result) {
   result.out_of_tolerance = finding.count;
   std::erase_if(result.findings, [&](const Finding& f) { return f.code == finding.code; });
   if (finding.count > 0) result.findings.push_back(std::move(finding));
+}
+
+void judge_whole(const Sensors& sensors, const DaylightSource& source,
+                 const IlluminanceOptions& options, IlluminanceResult& result) {
+  const ErrorBudget budget(options.tolerance_pct, options.floor_share * source.unobstructed_lux());
+  const SensorIlluminance& values = result.values;
+  if (budget.allowed_lux(0.0) > 0.0) find_dark_sensors(sensors, values, result.findings);
+  for (std::size_t s = 0; s < values.size(); ++s) {
+    result.is_missed[s] |= !(values.error_lux[s] <= budget.allowed_lux(values.total_lux(s)));
+  }
+  tell_missed(result);
 }
 
 IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
@@ -279,7 +280,6 @@ void add_reflection(const Sensors& sensors, const RayVisibility& rays, const Day
                     const IlluminanceOptions& options, Progress& progress,
                     IlluminanceResult& result) {
   IlluminanceOptions reflected = options;
-  const ErrorBudget budget(options.tolerance_pct, options.floor_share * source.unobstructed_lux());
   if (options.share_reflected_m > 0.0) {
     reflected.floor_share = 0.01;  // what is shared is not exact to that in any case
     reflected.tolerance_pct = std::min(100.0, kBlended * options.tolerance_pct);
@@ -288,7 +288,7 @@ void add_reflection(const Sensors& sensors, const RayVisibility& rays, const Day
         sensors, sharing_by_distance(sensors, result.values.sky_view, options.share_reflected_m),
         rays);
     add_shared_reflection(sharing, rays, source, reflected, progress, result);
-    return judge_whole(sensors, budget, result);
+    return judge_whole(sensors, source, options, result);
   }
   IlluminanceOptions::KnownDirect known;
   for (std::size_t s = 0; s < sensors.size(); ++s) known.lux.push_back(result.values.total_lux(s));
@@ -301,7 +301,7 @@ void add_reflection(const Sensors& sensors, const RayVisibility& rays, const Day
     result.values.error_lux[s] = std::hypot(result.values.error_lux[s], more.values.error_lux[s]);
     result.is_missed[s] |= more.is_missed[s];
   }
-  judge_whole(sensors, budget, result);
+  judge_whole(sensors, source, options, result);
 }
 
 }  // namespace tenku

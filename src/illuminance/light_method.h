@@ -1,4 +1,4 @@
-/// The choices that a user has between ways to find direct light.
+/// The choices that a user has between ways to find light.
 #pragma once
 
 #include <optional>
@@ -20,6 +20,14 @@ enum class Detail { Off, Paper, Budget };
 
 /// @throws InputError for any other name
 Detail detail_named(std::string_view name);
+
+/// `--reflection auto|radiosity|paths`: who finds the light between surfaces. `Auto`: radiosity in
+/// what is no longer than 60 m and has no more than 20,000 triangles, such as a room or a
+/// courtyard.
+enum class Reflection { Auto, Radiosity, Paths };
+
+/// @throws InputError for any other name
+Reflection reflection_named(std::string_view name);
 
 /// How direct light is found.
 struct LightMethod {

@@ -12,8 +12,10 @@
 #include "core/random.h"
 #include "core/stopwatch.h"
 #include "illuminance/error_budget.h"
+#include "illuminance/sensor_cells.h"
 #include "illuminance/sensor_regions.h"
 #include "illuminance/shared_light.h"
+#include "illuminance/sky_interpolation.h"
 
 namespace tenku {
 namespace {
@@ -31,6 +33,8 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kTexelPerPercent_m = 0.35;  // of tolerance
 constexpr double kFinestTexel_m = 0.1, kCoarsestTexel_m = 8.0;
 constexpr int kLeastTexels = 128, kMostTexels = 2048, kUsualTexels = 1024;
+constexpr std::size_t kClusters = 4;
+constexpr double kInCluster = 2000.0;                    // sensors
 constexpr std::size_t kFewTrials = 2, kMoreTrials = 10;  // elements that tell the time
 
 // Elements.
@@ -73,6 +77,7 @@ class RegionPlanner {
     if (may_be_apart || (method_.is_predicted && method_.detail == Detail::Budget)) {
       time_rays(pilots, told);
       told.elements = source_.element_count();
+      choose_interpolation(here, told);
       if (!method_.is_predicted && told.rays_s < (is_picture() ? kSoonPicture_s : kSoon_s)) {
         told.why = "done soon";
         return;
@@ -143,6 +148,32 @@ class RegionPlanner {
     told.rays_s =
         watch.seconds() * static_cast<double>(told.sensors) / static_cast<double>(pilots.size());
     told.predicted_error_lux = result.values.mean_error_lux();
+  }
+
+  /// How many of the sensors take their skylight from others, found for some clusters of them.
+  void choose_interpolation(const Sensors& here, PlannedRegion& told) const {
+    told.may_interpolate = !is_picture() && told.sensors >= kFewSensors;
+    if (!told.may_interpolate || told.rays_s < kWorthMaps_s) return;
+    const Sensors sample = sensors_of(here, clusters_of(here));
+    std::size_t interpolated = 0;
+    Progress quiet;
+    illuminate_sparsely(sample, engines_.rays(), source_, direct_options(), quiet, &interpolated);
+    told.rays_s *= 1.0 - static_cast<double>(interpolated) / static_cast<double>(sample.size());
+  }
+
+  static std::vector<std::uint32_t> clusters_of(const Sensors& here) {
+    const std::vector<std::uint64_t> any(here.size(), 0);
+    const double cell_m = cell_with(kInCluster, here, any);
+    SensorCells cells(places_in_cells(here, cell_m), any, 0);
+    for (std::uint32_t s = 0; s < here.size(); ++s) cells.add(s, s);
+    std::vector<std::uint32_t> chosen;
+    for (std::size_t k = 0; k < kClusters; ++k) {
+      const auto& cluster = cells.beside((2 * k + 1) * here.size() / (2 * kClusters));
+      chosen.insert(chosen.end(), cluster.begin(), cluster.end());
+    }
+    std::sort(chosen.begin(), chosen.end());
+    chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+    return chosen;
   }
 
   void judge_pilots(RegionWork& work, const Sensors& pilots) const {
@@ -335,6 +366,8 @@ std::vector<RegionWork> plan_light(const Sensors& sensors, const Engines& engine
     RegionWork all;
     all.sensor = all_of(sensors.size());
     all.told.sensors = sensors.size();
+    all.told.may_interpolate =
+        sensors.size() >= kFewSensors && !(method.picture_tolerance_pct > 0.0);
     all.told.why = method.engine == EngineChoice::Rays ? "asked for" : "few sensors";
     plan.push_back(std::move(all));
     return plan;

@@ -5,6 +5,11 @@
 
 namespace tenku {
 
+double conformal_quantile(const std::vector<double>& sorted) {
+  const double rank = std::ceil(Pilots::kConfidence * static_cast<double>(sorted.size() + 1));
+  return sorted[std::min(sorted.size(), static_cast<std::size_t>(rank)) - 1];
+}
+
 double Pilots::interval_per_scale(const std::vector<double>& value,
                                   const std::vector<double>& scale) const {
   std::vector<double> ratio;
@@ -13,8 +18,7 @@ double Pilots::interval_per_scale(const std::vector<double>& value,
   }
   if (ratio.empty()) return 0.0;
   std::sort(ratio.begin(), ratio.end());
-  const double rank = std::ceil(kConfidence * static_cast<double>(ratio.size() + 1));
-  return ratio[std::min(ratio.size(), static_cast<std::size_t>(rank)) - 1];
+  return conformal_quantile(ratio);
 }
 
 }  // namespace tenku

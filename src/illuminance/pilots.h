@@ -6,6 +6,10 @@
 
 namespace tenku {
 
+/// The value below which a further one lies with a chance of at least 95 %.
+/// @param sorted  ascending, not empty
+double conformal_quantile(const std::vector<double>& sorted);
+
 /// Sensors whose direct light is known well beforehand, and what they tell of all.
 ///
 /// What a method gives for them less what they truly receive, by a scale that the method knows for

@@ -8,6 +8,7 @@
 #include "illuminance/error_budget.h"
 #include "illuminance/paper_detail.h"
 #include "illuminance/shared_light.h"
+#include "illuminance/sky_interpolation.h"
 
 namespace tenku {
 namespace {
@@ -50,9 +51,12 @@ class PlannedLight {
   }
 
  private:
-  void by_rays(const RegionWork& work) {
-    const IlluminanceResult part = illuminate(sensors_of(sensors_, work.sensor), engines_.rays(),
-                                              source_, options_, progress_);
+  void by_rays(RegionWork& work) {
+    const Sensors here = sensors_of(sensors_, work.sensor);
+    const IlluminanceResult part =
+        work.told.may_interpolate ? illuminate_sparsely(here, engines_.rays(), source_, options_,
+                                                        progress_, &work.told.interpolated)
+                                  : illuminate(here, engines_.rays(), source_, options_, progress_);
     for (std::size_t k = 0; k < work.sensor.size(); ++k) {
       const std::uint32_t s = work.sensor[k];
       result_.values.sun_lux[s] = part.values.sun_lux[k];
@@ -128,8 +132,9 @@ class PlannedLight {
 };
 
 bool is_each_for_itself(const std::vector<RegionWork>& plan) {
-  return std::none_of(plan.begin(), plan.end(),
-                      [](const RegionWork& work) { return work.told.is_shared; });
+  return std::none_of(plan.begin(), plan.end(), [](const RegionWork& work) {
+    return work.told.is_shared || work.told.may_interpolate;
+  });
 }
 
 /// Rays light all regions at once: one line for all of them.

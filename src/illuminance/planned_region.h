@@ -30,6 +30,9 @@ struct PlannedRegion {
   /// Whether all sensors look in the same directions, one in each element; otherwise each has its
   /// own way (SensorSky, ElementSky). Maps are always shared.
   bool is_shared = false;
+  /// Whether sensors may take their skylight from those around; how many did.
+  bool may_interpolate = false;
+  std::size_t interpolated = 0;
   std::size_t elements = 0, sun_directions = 0;
   int texels = 0;  ///< along a side of a map
   double texel_m = 0.0;

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 #include "illuminance/sensor.h"
+#include "illuminance/sensor_cells.h"
 #include "visibility/ray_visibility.h"
 
 namespace tenku {
@@ -61,10 +61,8 @@ class ReflectedSharing {
   struct Blend {
     double lux = 0.0, error_lux = 0.0, scale_lux = 0.0;
   };
-  std::uint64_t cell_key(std::size_t sensor, Vec3 steps_away) const;
   void choose_representatives();
   void draw_pilots();
-  bool is_flat(std::size_t sensor) const;
   bool is_like(std::size_t sensor, std::size_t other) const;
   bool is_seen(std::size_t sensor, std::size_t other) const;
   bool has_representative(std::size_t sensor) const;
@@ -74,11 +72,10 @@ class ReflectedSharing {
   const Sensors& sensors_;
   const RayVisibility& rays_;
   SharingLayout layout_;
-  std::vector<Vec3> steps_;  ///< to the cells that are blended
+  SensorCells cells_;  ///< hold places among those calculated
   std::vector<std::uint32_t> calculated_;
   std::size_t representatives_ = 0;  ///< the first of those calculated
   std::vector<std::uint32_t> own_;   ///< [sensor], place among those calculated, or none
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> in_cell_;  ///< places likewise
 };
 
 }  // namespace tenku

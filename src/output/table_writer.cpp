@@ -57,15 +57,20 @@ void CsvTable::end_row() {
 
 void CsvTable::write(const std::filesystem::path& path) const { write_whole_file(path, text_); }
 
+void add_illuminance(CsvTable& table, const SensorInFile& sensor, const SensorIlluminance& results,
+                     std::size_t index) {
+  for (const Vec3 v : {sensor.position, sensor.normal}) table.add(v.x).add(v.y).add(v.z);
+  table.add(results.sun_lux[index]).add(results.sky_lux[index]).add(results.reflected_lux[index]);
+  table.add(results.total_lux(index)).add(results.error_lux[index]).add(results.sky_view[index]);
+}
+
 CsvTable illuminance_table(std::span<const Vec3> positions, std::span<const Vec3> normals,
                            const SensorIlluminance& results) {
   expects(positions.size() == results.size() && normals.size() == results.size(),
           "each sensor has a position, a normal and a result");
   CsvTable table(kIlluminanceHeader);
   for (std::size_t i = 0; i < results.size(); ++i) {
-    for (const Vec3 v : {positions[i], normals[i]}) table.add(v.x).add(v.y).add(v.z);
-    table.add(results.sun_lux[i]).add(results.sky_lux[i]).add(results.reflected_lux[i]);
-    table.add(results.total_lux(i)).add(results.error_lux[i]).add(results.sky_view[i]);
+    add_illuminance(table, {positions[i], normals[i]}, results, i);
     table.end_row();
   }
   return table;

@@ -49,6 +49,15 @@ class CsvTable {
 inline constexpr std::string_view kIlluminanceHeader =
     "x,y,z,nx,ny,nz,sun_lux,sky_lux,reflected_lux,total_lux,error_lux,sky_view";
 
+/// A sensor as the user gave it, in the coordinates of the scene file.
+struct SensorInFile {
+  Vec3 position, normal;
+};
+
+/// Adds the cells of kIlluminanceHeader to a row that is not ended.
+void add_illuminance(CsvTable& table, const SensorInFile& sensor, const SensorIlluminance& results,
+                     std::size_t index);
+
 /// Table of `results` on sensors, in their order.
 ///
 /// @param positions, normals  as the user gave them, in the coordinates of the scene file

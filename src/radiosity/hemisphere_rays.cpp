@@ -67,13 +67,14 @@ class HemisphereRays : public FormFactorMethod {
     const std::vector<Vec3> direction = directions_at(position, normal);
     std::vector<std::uint32_t> element(direction.size());
     rays_.first_triangles(position, direction, element);
-    std::vector<std::uint32_t> hits(2 * normal_.size());
+    std::vector<std::uint32_t> side;
+    side.reserve(direction.size());
     for (std::size_t k = 0; k < direction.size(); ++k) {
       if (element[k] == RayVisibility::kNoTriangle) continue;
       const bool back = dot(direction[k], normal_[element[k]]) > 0.0;
-      ++hits[2 * static_cast<std::size_t>(element[k]) + (back ? 1 : 0)];
+      side.push_back(2 * element[k] + (back ? 1U : 0U));
     }
-    return row_of(hits, direction.size());
+    return row_of(std::move(side), direction.size());
   }
 
  private:
@@ -90,11 +91,14 @@ class HemisphereRays : public FormFactorMethod {
     return direction;
   }
 
-  static FormFactorRow row_of(const std::vector<std::uint32_t>& hits, std::size_t rays) {
+  /// @param side  that each ray has met
+  static FormFactorRow row_of(std::vector<std::uint32_t> side, std::size_t rays) {
+    std::sort(side.begin(), side.end());
     FormFactorRow row;
-    for (std::uint32_t side = 0; side < hits.size(); ++side) {
-      if (hits[side] == 0) continue;
-      row.push_back({side, static_cast<float>(hits[side] / static_cast<double>(rays))});
+    for (std::size_t begin = 0, end = 0; begin < side.size(); begin = end) {
+      while (end < side.size() && side[end] == side[begin]) ++end;
+      row.push_back({side[begin], static_cast<float>(static_cast<double>(end - begin) /
+                                                     static_cast<double>(rays))});
     }
     return row;
   }

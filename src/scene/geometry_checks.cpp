@@ -4,21 +4,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <limits>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "core/mixed_key_sort.h"
 #include "core/random.h"
 
 namespace tenku {
-namespace {
 
 std::string place_in_file(const Scene& scene, Vec3 local) {
   const Vec3 at = scene.frame.to_file(local);
   const int digits = scene.frame.is_geographic() ? 7 : 2;
   return fmt::format("{:.{}f} {:.{}f} {:.2f}", at.x, digits, at.y, digits, at.z);
 }
+
+namespace {
 
 /// Vertices of all rings of a surface.
 std::span<const std::uint32_t> vertices_of(const Surfaces& surfaces, std::size_t s) {
@@ -53,18 +56,24 @@ bool have_same_vertices(const Surfaces& surfaces, std::size_t a, std::size_t b) 
 void tell_coincident_faces(RawScene& raw) {
   const Scene& scene = raw.scene;
   const Surfaces& surfaces = scene.surfaces;
-  std::vector<std::pair<std::uint64_t, std::size_t>> keys;
-  keys.reserve(surfaces.size());
+  struct Face {
+    std::uint64_t key;
+    std::size_t surface;
+
+    auto operator<=>(const Face&) const = default;
+  };
+  std::vector<Face> faces;
+  faces.reserve(surfaces.size());
   for (std::size_t s = 0; s < surfaces.size(); ++s) {
     std::uint64_t sum = 0;  // the same in whatever order the vertices come
     for (const std::uint32_t v : vertices_of(surfaces, s)) sum += mix_bits(v + 1ULL);
-    keys.emplace_back(sum, s);
+    faces.push_back({sum, s});
   }
-  std::sort(keys.begin(), keys.end());
+  sort_by_mixed_key(faces);
   std::size_t count = 0, first = surfaces.size(), other = 0;
-  for (std::size_t k = 0, group = 0; k < keys.size(); ++k) {
-    if (keys[k].first != keys[group].first) group = k;
-    const std::size_t here = keys[group].second, again = keys[k].second;
+  for (std::size_t k = 0, group = 0; k < faces.size(); ++k) {
+    if (faces[k].key != faces[group].key) group = k;
+    const std::size_t here = faces[group].surface, again = faces[k].surface;
     if (surfaces.object[here] == surfaces.object[again]) continue;
     if (!have_same_vertices(surfaces, here, again)) continue;
     ++count;

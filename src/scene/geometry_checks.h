@@ -1,6 +1,8 @@
 /// What a model has that the methods of light bear badly: told, not mended.
 #pragma once
 
+#include <string>
+
 #include "scene/raw_scene.h"
 
 namespace tenku {
@@ -17,5 +19,8 @@ namespace tenku {
 ///
 /// Cost     0.1 s per million surfaces.
 void check_geometry(RawScene& raw);
+
+/// A local point in the coordinates of the file, as findings name places.
+std::string place_in_file(const Scene& scene, Vec3 local);
 
 }  // namespace tenku

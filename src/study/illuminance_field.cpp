@@ -45,17 +45,6 @@ void add_way_back(FieldMesh& mesh, const FileFrame& frame) {
                          text_of({x.z, y.z, z.z})}});
 }
 
-void add_place(FieldMesh& mesh, const LitScene& lit) {
-  const auto& at = lit.scene().georeference;
-  mesh.texts.push_back({"crs", {at ? at->crs : ""}});
-  if (at) {
-    mesh.texts.push_back(
-        {"grid_convergence_deg", {shortest_text(at->grid_convergence.in_degrees())}});
-  }
-  add_way_back(mesh, lit.scene().frame);
-  mesh.texts.push_back({"sky", {lit.sky().description}});
-}
-
 /// Codes of the objects that the grid touches, in the order of their first part.
 void add_cells(FieldMesh& mesh, const LitScene& lit, const SensorGrid& grid) {
   FieldCodes type{"surface_type", {}}, object{"object_id", {}};
@@ -77,6 +66,17 @@ void add_cells(FieldMesh& mesh, const LitScene& lit, const SensorGrid& grid) {
 }
 
 }  // namespace
+
+void add_place(FieldMesh& mesh, const LitScene& lit) {
+  const auto& at = lit.scene().georeference;
+  mesh.texts.push_back({"crs", {at ? at->crs : ""}});
+  if (at) {
+    mesh.texts.push_back(
+        {"grid_convergence_deg", {shortest_text(at->grid_convergence.in_degrees())}});
+  }
+  add_way_back(mesh, lit.scene().frame);
+  mesh.texts.push_back({"sky", {lit.sky().description}});
+}
 
 FieldMesh field_of_grid(const LitScene& lit, const SensorGrid& grid,
                         const SensorIlluminance& values) {

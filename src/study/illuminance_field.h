@@ -23,4 +23,8 @@ FieldMesh field_of_grid(const LitScene& lit, const SensorGrid& grid,
 FieldMesh field_of_points(const LitScene& lit, const Sensors& sensors,
                           const SensorIlluminance& values);
 
+/// Adds the texts that lead to the place and the light: `crs`, `origin`, `to_file`, `sky` and so
+/// on.
+void add_place(FieldMesh& mesh, const LitScene& lit);
+
 }  // namespace tenku

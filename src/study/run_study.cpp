@@ -4,7 +4,6 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
-#include "illuminance/planned_light.h"
 #include "illuminance/wide_texels.h"
 #include "output/field_writer.h"
 #include "output/sensor_file.h"
@@ -13,6 +12,7 @@
 #include "study/ground_plan.h"
 #include "study/illuminance_field.h"
 #include "study/lit_scene.h"
+#include "study/scene_light.h"
 #include "study/stage_clock.h"
 #include "study/study_report.h"
 #include "study/study_sky.h"
@@ -94,6 +94,7 @@ class StudyRun {
               return sky_of(study, moment_);
             },
             study.calculation.partition, study.calculation.gl, progress_),
+        light_(lit_, study.calculation.reflection),
         report_(study, lit_, moment_) {}
 
   void render(const StudyView& view) {
@@ -177,8 +178,8 @@ class StudyRun {
   IlluminanceResult light(const Sensors& sensors, double share_reflected_m) {
     IlluminanceOptions options = illuminance_options_of(study_.calculation);
     options.share_reflected_m = share_reflected_m;
-    IlluminanceResult result = illuminate(sensors, lit_.engines(), lit_.source(), options,
-                                          method_of(study_.calculation), progress_);
+    IlluminanceResult result =
+        light_.illuminate(sensors, options, method_of(study_.calculation), progress_);
     add(wide_texels(result.regions, lit_.scene().frame), result.findings);
     outcome_.out_of_tolerance += result.out_of_tolerance;
     report_.add_light(result);
@@ -195,6 +196,7 @@ class StudyRun {
   StageClock progress_;
   StudyMoment moment_;
   LitScene lit_;
+  SceneLight light_;
   ReportBuilder report_;
   StudyOutcome outcome_;
 };

@@ -49,6 +49,7 @@ struct StudyCalculation {
   std::uint64_t seed = 1;
   EngineChoice engine = EngineChoice::Auto;
   Detail detail = Detail::Budget;
+  Reflection reflection = Reflection::Auto;
   double mu = 1.0;  ///< of `Detail::Paper`
   GlPlatform gl = GlPlatform::Auto;
   std::optional<PartitionRequest> partition;  ///< sky elements by hand; else slices

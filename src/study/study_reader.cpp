@@ -30,8 +30,8 @@ const std::vector<KnownTable>& known_tables() {
       {"sun", {"altitude_deg", "azimuth_deg", "illuminance_lx"}},
       {"sky", {"model", "illuminance_lx"}},
       {"calculation",
-       {"tolerance_percent", "bounces", "seed", "engine", "gl", "lod", "mu", "partition",
-        "elements", "energy_threshold_lx"}},
+       {"tolerance_percent", "bounces", "seed", "engine", "reflection", "gl", "lod", "mu",
+        "partition", "elements", "energy_threshold_lx"}},
       {"view", {"name", "eye", "target", "fov_deg", "size", "show", "files"}},
       {"illuminance", {"name", "surfaces", "spacing_m", "most_sensors"}},
       {"sensors", {"name", "file"}},
@@ -156,6 +156,7 @@ std::optional<PartitionRequest> partition_of(const TomlSection& in) {
 StudyCalculation calculation_of(const TomlSection& in) {
   static constexpr std::array<std::string_view, 3> kEngines{"auto", "rays", "shadow-maps"};
   static constexpr std::array<std::string_view, 3> kPlatforms{"auto", "osmesa", "egl"};
+  static constexpr std::array<std::string_view, 3> kReflections{"auto", "radiosity", "paths"};
   static constexpr std::array<std::string_view, 3> kDetails{"off", "paper", "budget"};
   StudyCalculation result;
   result.tolerance_percent =
@@ -164,6 +165,9 @@ StudyCalculation calculation_of(const TomlSection& in) {
   result.seed = static_cast<std::uint64_t>(in.integer("seed", {0, 9007199254740992.0}).value_or(1));
   if (const auto name = in.choice("engine", kEngines)) result.engine = engine_named(*name);
   if (const auto name = in.choice("gl", kPlatforms)) result.gl = gl_platform_named(*name);
+  if (const auto name = in.choice("reflection", kReflections)) {
+    result.reflection = reflection_named(*name);
+  }
   if (const auto name = in.choice("lod", kDetails)) result.detail = detail_named(*name);
   result.mu = in.number("mu", {0.0, 1e9, true}).value_or(result.mu);
   result.partition = partition_of(in);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <compare>
 
+#include "core/mixed_key_sort.h"
 #include "core/random.h"
 
 namespace tenku {
@@ -13,6 +15,8 @@ namespace {
 struct EdgeUse {
   std::uint64_t key;
   std::uint32_t half_edge;
+
+  auto operator<=>(const EdgeUse&) const = default;
 };
 
 std::uint64_t position_hash(Vec3 p, std::uint32_t object) {
@@ -24,17 +28,20 @@ std::uint64_t position_hash(Vec3 p, std::uint32_t object) {
 
 std::vector<EdgeUse> edge_uses(const TriangleSoup& soup) {
   std::vector<EdgeUse> uses(3 * soup.size());
-  for (std::uint32_t t = 0; t < soup.size(); ++t) {
-    std::array<std::uint64_t, 3> corner;
-    for (unsigned k = 0; k < 3; ++k) {
-      corner[k] = position_hash(soup.vertices[soup.triangles[t][k]], soup.object[t]);
+  constexpr std::size_t kGrain = 4096;
+  parallel_for(soup.size(), kGrain, [&](IndexRange range) {
+    for (std::size_t t = range.begin; t < range.end; ++t) {
+      std::array<std::uint64_t, 3> corner;
+      for (unsigned k = 0; k < 3; ++k) {
+        corner[k] = position_hash(soup.vertices[soup.triangles[t][k]], soup.object[t]);
+      }
+      for (unsigned e = 0; e < 3; ++e) {
+        const std::uint64_t a = corner[e], b = corner[(e + 1) % 3];
+        const auto half_edge = static_cast<std::uint32_t>(3 * t + e);
+        uses[half_edge] = {mix_bits(std::min(a, b)) ^ std::max(a, b), half_edge};
+      }
     }
-    for (unsigned e = 0; e < 3; ++e) {
-      const std::uint64_t a = corner[e], b = corner[(e + 1) % 3];
-      const std::uint32_t half_edge = 3 * t + e;
-      uses[half_edge] = {mix_bits(std::min(a, b)) ^ std::max(a, b), half_edge};
-    }
-  }
+  });
   return uses;
 }
 
@@ -42,9 +49,7 @@ std::vector<EdgeUse> edge_uses(const TriangleSoup& soup) {
 
 MeshAdjacency::MeshAdjacency(const TriangleSoup& soup) : opposite_(3 * soup.size(), kNone) {
   std::vector<EdgeUse> uses = edge_uses(soup);
-  std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
-    return a.key != b.key ? a.key < b.key : a.half_edge < b.half_edge;
-  });
+  sort_by_mixed_key(uses);
   for (std::size_t i = 0; i + 1 < uses.size(); ++i) {
     if (uses[i].key != uses[i + 1].key) continue;
     opposite_[uses[i].half_edge] = uses[i + 1].half_edge;

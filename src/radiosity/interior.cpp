@@ -1,0 +1,284 @@
+#include "radiosity/interior.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "core/stopwatch.h"
+#include "illuminance/error_budget.h"
+#include "illuminance/reflected_sharing.h"
+
+namespace tenku {
+namespace {
+
+constexpr double kShotShare = 0.1;   // of the tolerance: what shots may leave unshot
+constexpr double kSweepShare = 0.1;  // of the tolerance, in dim places: left by sweeps
+constexpr double kDimShare = 0.1;    // of the mean light: dimmer corners need not be exact
+constexpr double kUsualTolerance = 2.0;
+constexpr double kRounding = 1e-5;  // of the sum of a row
+constexpr int kLampRays = 4096;     // to a lamp that a sensor sees in part
+
+PointGatherOptions gather_options(const InteriorOptions& options, int resolution) {
+  PointGatherOptions gather;
+  gather.method = options.form_factors;
+  gather.form_factors = options.shot;
+  gather.form_factors.resolution = resolution;
+  gather.lift_m = options.lift_m;
+  gather.most_bytes = options.most_bytes / 2;
+  return gather;
+}
+
+/// The error of n strata falls as n^(-3/4), and n as the square of the resolution.
+int corner_resolution(const InteriorOptions& options) {
+  if (options.point_resolution > 0) return options.point_resolution;
+  const double finer = std::pow(kUsualTolerance / options.tolerance_pct, 2.0 / 3.0);
+  return static_cast<int>(std::lround(std::clamp(24.0 * finer, 16.0, 128.0)));
+}
+
+SurfaceLight scaled(SurfaceLight surfaces, double lamp_scale) {
+  for (Rgb& emission : surfaces.emission_lm_m2) emission = lamp_scale * emission;
+  return surfaces;
+}
+
+/// Sensors that face one way have one number.
+std::vector<std::uint32_t> facings(const Sensors& sensors) {
+  std::map<std::uint64_t, std::uint32_t> number;
+  std::vector<std::uint32_t> of_sensor;
+  for (const Vec3 n : sensors.normal) {
+    const auto next = static_cast<std::uint32_t>(number.size());
+    of_sensor.push_back(number.emplace(facing(n), next).first->second);
+  }
+  return of_sensor;
+}
+
+bool is_any(Rgb c) { return c.r > 0.0 || c.g > 0.0 || c.b > 0.0; }
+
+/// Whole planes on which anything is so: values are wanted up to their edges.
+std::vector<std::uint8_t> on_whole_planes(const SidePoints& points,
+                                          std::vector<std::uint8_t> is_so) {
+  std::vector<std::uint8_t> of_plane(points.planes);
+  for (std::size_t i = 0; i < is_so.size(); ++i) of_plane[points.plane[i]] |= is_so[i];
+  for (std::size_t i = 0; i < is_so.size(); ++i) is_so[i] = of_plane[points.plane[i]];
+  return is_so;
+}
+
+}  // namespace
+
+Interior::Interior(const ElementMesh& mesh, const std::vector<Material>& materials,
+                   const InteriorOptions& options)
+    : mesh_(mesh),
+      options_(options),
+      surfaces_(surface_light(mesh, materials, findings_)),
+      points_(side_points(mesh)),
+      method_(form_factor_method(options.form_factors, mesh, options.shot)),
+      rows_(mesh, *method_, {.lift_m = options.lift_m, .most_bytes = options.most_bytes / 2}),
+      gather_(mesh, points_.sensors, gather_options(options, corner_resolution(options))),
+      emitters_(mesh, points_, surfaces_, options.shot.seed) {}
+
+const std::vector<std::uint8_t>& Interior::open_points(Progress& progress) {
+  if (is_open_) return *is_open_;
+  const Stopwatch watch;
+  const std::vector<std::uint8_t> all(points_.size(), 1);
+  gather_.prepare(all, progress);
+  std::vector<std::uint8_t> is_open(points_.size());
+  gather_.for_rows(all, [&](std::size_t point, std::size_t, const FormFactorRow& row) {
+    double sum = 0.0;
+    for (const FormFactor& f : row) sum += f.value;
+    if (sum < 1.0 - kRounding) is_open[point] = 1;
+  });
+  times_.form_factors_s += watch.seconds();
+  is_open_ = on_whole_planes(points_, std::move(is_open));
+  return *is_open_;
+}
+
+RefinementResult Interior::shoot(const SurfaceLight& surfaces, const DaylightOnSides& direct,
+                                 Progress& progress) {
+  std::vector<Rgb> on_sides;
+  for (const double lux : direct.lux) on_sides.push_back(Rgb::grey(lux));
+  RefinementOptions refinement;
+  refinement.tolerance = kShotShare * options_.tolerance_pct / 100.0;
+  refinement.most_shots = options_.most_shots;
+  refinement.watch = options_.watch;
+  const Stopwatch watch;
+  const double before = rows_.seconds();
+  RefinementResult result =
+      refine_progressively(mesh_, surfaces, on_sides, rows_, refinement, progress);
+  const double looking = rows_.seconds() - before;
+  times_.form_factors_s += looking;
+  times_.solve_s += watch.seconds() - looking;
+  return result;
+}
+
+std::vector<std::uint8_t> Interior::lit_points(const SideRadiosity& sides,
+                                               const DaylightOnSides& direct) const {
+  std::vector<std::uint8_t> is_lit(points_.size());
+  for (std::size_t s = 0; s < mesh_.sides(); ++s) {
+    if (!is_any(sides.received[s]) && !(direct.lux[s] > 0.0) && !is_any(sides.radiosity[s])) {
+      continue;
+    }
+    for (const std::uint32_t i : points_.corner[s]) is_lit[i] = 1;
+  }
+  return on_whole_planes(points_, std::move(is_lit));
+}
+
+const LampsOnMesh& Interior::lamps_on(std::span<const std::uint8_t> is_lit) {
+  bool is_known = lamps_known_.size() == is_lit.size();
+  for (std::size_t i = 0; i < is_lit.size() && is_known; ++i) {
+    is_known = is_lit[i] == 0 || lamps_known_[i] != 0;
+  }
+  if (!is_known) {
+    lamps_known_.assign(is_lit.begin(), is_lit.end());
+    lamps_ = lamps_on_mesh(mesh_, surfaces_, points_, emitters_, gather_, is_lit, options_.lift_m);
+  }
+  return lamps_;
+}
+
+InteriorLight Interior::light(const LightRequest& request, Progress& progress) {
+  InteriorLight light;
+  light.findings = findings_;
+  light.lamp_scale = request.lamp_scale;
+  DaylightOnSides direct(points_.size(), mesh_.sides());
+  if (request.daylight != nullptr) {
+    const auto& is_open = open_points(progress);
+    const Stopwatch watch;
+    direct = daylight_on_sides(mesh_, points_, is_open, *request.daylight, progress);
+    times_.daylight_s += watch.seconds();
+    light.findings.insert(light.findings.end(), direct.findings.begin(), direct.findings.end());
+  }
+  const SurfaceLight surfaces = scaled(surfaces_, request.lamp_scale);
+  light.shots = shoot(surfaces, direct, progress);
+  light.is_lit = lit_points(light.shots.sides, direct);
+  light.points = direct.points;
+  const Stopwatch looking;
+  gather_.prepare(light.is_lit, progress);
+  times_.form_factors_s += looking.seconds();
+  const Stopwatch sweeping;
+  const CornerProblem problem{mesh_,
+                              surfaces,
+                              points_,
+                              lamps_on(light.is_lit),
+                              request.lamp_scale,
+                              direct,
+                              kSweepShare * options_.tolerance_pct};
+  CornerLight start;
+  start.radiosity = light.shots.sides.radiosity;
+  light.corners = solve_at_corners(problem, gather_, std::move(start), light.is_lit, progress);
+  for (auto rough = rough_points(light); gather_.look_finer(rough); rough = rough_points(light)) {
+    const Stopwatch again;
+    gather_.prepare(rough, progress);
+    times_.form_factors_s += again.seconds();
+    times_.solve_s -= again.seconds();
+    light.corners =
+        solve_at_corners(problem, gather_, std::move(light.corners), light.is_lit, progress);
+  }
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    light.points.reflected_lux[i] = luminance_of(light.corners.lux[i]);
+    light.points.error_lux[i] =
+        std::hypot(light.points.error_lux[i],
+                   interval_lux(light.corners.variance[i], light.corners.mesh_lux[i])) +
+        light.corners.convergence_lux;
+  }
+  times_.solve_s += sweeping.seconds();
+  tell_refused(light.findings);
+  tell_leaks(light);
+  return light;
+}
+
+std::vector<std::uint8_t> Interior::rough_points(const InteriorLight& light) const {
+  const CornerLight& corners = light.corners;
+  const auto lux = [&](std::size_t i) {
+    return light.points.sun_lux[i] + light.points.sky_lux[i] + luminance_of(corners.lux[i]);
+  };
+  double sum = 0.0, lit = 0.0;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    sum += lux(i);
+    lit += luminance_of(corners.lux[i]) > 0.0;
+  }
+  const ErrorBudget budget(options_.tolerance_pct, kDimShare * sum / std::max(lit, 1.0));
+  std::vector<std::uint8_t> rough(points_.size());
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    rough[i] = interval_lux(corners.variance[i], 0.0) > budget.allowed_lux(lux(i));
+  }
+  return rough;
+}
+
+void Interior::tell_leaks(InteriorLight& light) {
+  if (!(light.shots.balance.escaped_lm > 0.0)) return;
+  if (!leaks_) {
+    std::vector<double> lux;
+    for (std::size_t i = 0; i < points_.size(); ++i) lux.push_back(light.points.total_lux(i));
+    leaks_ = find_light_leaks(mesh_, points_.sensors, lux, options_.lift_m, options_.shot.seed);
+  }
+  tell_light_leaks(*leaks_, light.findings);
+}
+
+void Interior::tell_refused(std::vector<Finding>& findings) const {
+  const std::size_t refused = rows_.refused() + gather_.refused();
+  if (refused == 0) return;
+  Finding finding;
+  finding.code = "form_factors_not_kept";
+  finding.severity = Severity::Note;
+  finding.what = "the memory given does not hold all form factors: " + std::to_string(refused) +
+                 " rows are found anew whenever they are needed";
+  finding.repair = "more --memory, larger elements, or a lower --resolution";
+  finding.count = refused;
+  findings.push_back(std::move(finding));
+}
+
+InteriorSensors Interior::look_from(const Sensors& sensors) const {
+  InteriorSensors look;
+  look.all.assign(sensors.size(), 1);
+  look.gather = std::make_unique<PointGather>(mesh_, sensors,
+                                              gather_options(options_, options_.sensor_resolution));
+  look.lamps = light_of_lamps(emitters_, sensors, look.all, options_.lift_m, kLampRays);
+  return look;
+}
+
+void Interior::add_reflected(InteriorSensors& sensors, const InteriorLight& light,
+                             SensorIlluminance& values, Progress& progress) const {
+  const CornerLight& corners = light.corners;
+  const std::vector<Rgb> sent =
+      reflected_part(scaled(surfaces_, light.lamp_scale), corners.radiosity);
+  std::vector<PointGather::Looks> looks(values.size());
+  std::vector<std::array<double, PointGather::kLooks>> mesh_part(values.size());
+  std::vector<double> variance;
+  std::vector<std::uint8_t> rough = sensors.all;
+  double floor_lux = 0.0;
+  do {
+    sensors.gather->prepare(rough, progress);
+    sensors.gather->for_rows(rough, [&](std::size_t i, std::size_t look, const FormFactorRow& row) {
+      Rgb sum = sensors.lamps[i].lux;
+      if (surfaces_.any_emits) {
+        sum = sum + emission_left_to_row(surfaces_, emitters_, sensors.lamps[i], row);
+      }
+      sum = light.lamp_scale * sum;
+      for (const FormFactor& f : row) sum = sum + f.value * sent[f.side];
+      looks[i][look] = sum;
+      mesh_part[i][look] = mesh_error_lux(row, corners.spread, corners.uneven);
+    });
+    variance = pooled_variance(looks, facings(sensors.gather->points()));
+    if (floor_lux == 0.0) {
+      for (const auto& look : looks) {
+        floor_lux += 0.01 * luminance_of(mean_of(look)) / static_cast<double>(looks.size());
+      }
+    }
+    const ErrorBudget budget(0.5 * options_.tolerance_pct, floor_lux);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double lux = values.sun_lux[i] + values.sky_lux[i] + luminance_of(mean_of(looks[i]));
+      rough[i] = interval_lux(variance[i], 0.0) > budget.allowed_lux(lux);
+    }
+  } while (sensors.gather->look_finer(rough));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double mesh_lux = 0.5 * (mesh_part[i][0] + mesh_part[i][1]);
+    const double of_lamps = light.lamp_scale * light.lamp_scale * sensors.lamps[i].variance;
+    values.reflected_lux[i] = luminance_of(mean_of(looks[i]));
+    values.error_lux[i] =
+        std::hypot(values.error_lux[i], interval_lux(variance[i] + of_lamps, mesh_lux)) +
+        corners.convergence_lux;
+  }
+}
+
+}  // namespace tenku

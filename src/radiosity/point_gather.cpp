@@ -1,0 +1,121 @@
+#include "radiosity/point_gather.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/parallel.h"
+
+namespace tenku {
+namespace {
+
+constexpr std::size_t kGrain = 8;     // points a task
+constexpr std::size_t kChunk = 8192;  // rows between two looks at the memory
+constexpr std::uint64_t kSecondSeed = 0x9e3779b97f4a7c15U;
+
+}  // namespace
+
+PointGather::Methods PointGather::methods(const ElementMesh& mesh,
+                                          const PointGatherOptions& options, std::size_t level) {
+  FormFactorOptions half = options.form_factors;
+  const double share = std::sqrt(static_cast<double>(kLooks));
+  half.resolution = std::max(2, static_cast<int>(std::lround(half.resolution / share)));
+  half.resolution <<= level;
+  Methods made;
+  for (auto& method : made) {
+    method = form_factor_method(options.method, mesh, half);
+    // Methods that do not sample differ by their resolution instead.
+    half.seed += kSecondSeed;
+    half.resolution += 1;
+  }
+  return made;
+}
+
+PointGather::PointGather(const ElementMesh& mesh, const Sensors& points,
+                         const PointGatherOptions& options)
+    : points_(points),
+      lift_m_(options.lift_m),
+      outward_(mesh, options.lift_m),
+      mesh_(mesh),
+      options_(options),
+      level_(points.size()),
+      store_(kLooks * points.size(), options.most_bytes) {
+  method_[0] = methods(mesh, options, 0);
+}
+
+bool PointGather::look_finer(std::span<const std::uint8_t> is_wanted) {
+  bool any = false;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (is_wanted[i] == 0 || level_[i] + 1U >= kLevels) continue;
+    Methods& finer = method_[++level_[i]];
+    if (!finer[0]) finer = methods(mesh_, options_, level_[i]);
+    for (std::size_t look = 0; look < kLooks; ++look) store_.forget(kLooks * i + look);
+    any = true;
+  }
+  return any;
+}
+
+FormFactorRow PointGather::find(std::size_t point, std::size_t look) const {
+  const Vec3 normal = points_.normal[point];
+  if (outward_.faces_nothing(points_.position[point], normal)) return {};
+  return method_[level_[point]][look]->from_point(points_.position[point] + lift_m_ * normal,
+                                                  normal);
+}
+
+void PointGather::prepare(std::span<const std::uint8_t> is_wanted, Progress& progress) {
+  std::vector<std::size_t> missing;
+  for (std::size_t k = 0; k < store_.size(); ++k) {
+    if (is_wanted[k / kLooks] != 0 && store_.find(k) == nullptr) missing.push_back(k);
+  }
+  progress.begin("form factors of points", missing.size());
+  refused_ = 0;
+  for (std::size_t begin = 0; begin < missing.size() && refused_ == 0; begin += kChunk) {
+    const std::size_t count = std::min(kChunk, missing.size() - begin);
+    std::vector<FormFactorRow> rows(count);
+    parallel_for(count, kGrain, [&](IndexRange range) {
+      progress.stop_if_cancelled();
+      for (std::size_t k = range.begin; k < range.end; ++k) {
+        rows[k] = find(missing[begin + k] / kLooks, missing[begin + k] % kLooks);
+      }
+      progress.advance(range.end - range.begin);
+    });
+    for (std::size_t k = 0; k < count; ++k) {
+      if (!store_.fits(rows[k])) {
+        refused_ = missing.size() - begin - k;
+        break;
+      }
+      store_.keep(missing[begin + k], std::move(rows[k]));
+    }
+  }
+  progress.end(std::to_string(missing.size()) + " rows");
+}
+
+void PointGather::for_rows(
+    std::span<const std::uint8_t> is_wanted,
+    const std::function<void(std::size_t, std::size_t, const FormFactorRow&)>& use) const {
+  parallel_for(points_.size(), kGrain, [&](IndexRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      if (is_wanted[i] == 0) continue;
+      for (std::size_t look = 0; look < kLooks; ++look) {
+        if (const FormFactorRow* row = store_.find(kLooks * i + look)) {
+          use(i, look, *row);
+        } else {
+          use(i, look, find(i, look));
+        }
+      }
+    }
+  });
+}
+
+std::vector<PointGather::Looks> PointGather::gather(std::span<const Rgb> of_side,
+                                                    std::span<const std::uint8_t> is_wanted) const {
+  std::vector<Looks> sums(points_.size());
+  for_rows(is_wanted, [&](std::size_t point, std::size_t look, const FormFactorRow& row) {
+    Rgb sum;
+    for (const FormFactor& f : row) sum = sum + f.value * of_side[f.side];
+    sums[point][look] = sum;
+  });
+  return sums;
+}
+
+}  // namespace tenku

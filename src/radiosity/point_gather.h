@@ -1,0 +1,84 @@
+/// The light that points receive from the sides of a mesh.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "core/rgb.h"
+#include "illuminance/sensor.h"
+#include "radiosity/element_mesh.h"
+#include "radiosity/form_factor.h"
+#include "radiosity/form_factor_store.h"
+#include "radiosity/outward_view.h"
+
+namespace tenku {
+
+struct PointGatherOptions {
+  std::string method = "hemisphere-rays";
+  FormFactorOptions form_factors;                  ///< of both looks together
+  double lift_m = 1e-5;                            ///< of points off their surface
+  std::size_t most_bytes = std::size_t{1} << 30U;  ///< of the rows kept
+};
+
+/// Rows of form factors of points. Every point looks twice, with half of the samples each, so that
+/// the difference tells the error of the form factors, whatever the method.
+class PointGather {
+ public:
+  static constexpr std::size_t kLooks = 2;
+  using Looks = std::array<Rgb, kLooks>;
+
+  /// @param mesh, points  kept by reference
+  /// @throws InputError as `form_factor_method`
+  PointGather(const ElementMesh& mesh, const Sensors& points, const PointGatherOptions& options);
+
+  /// Finds the rows of those points that are not kept yet, as far as memory goes.
+  /// @param is_wanted  [point]
+  /// @throws Cancelled
+  void prepare(std::span<const std::uint8_t> is_wanted, Progress& progress);
+
+  /// Lets these points look with four times the samples from now on, twice at most.
+  /// @return  whether any did not look so finely already
+  bool look_finer(std::span<const std::uint8_t> is_wanted);
+
+  /// Sum of form factor times value over the sides, by both looks [point]; zero for points that
+  /// are not wanted.
+  /// @param of_side  [element side]
+  std::vector<Looks> gather(std::span<const Rgb> of_side,
+                            std::span<const std::uint8_t> is_wanted) const;
+
+  /// Calls `use(point, look, row)` for the wanted points, on many threads.
+  void for_rows(
+      std::span<const std::uint8_t> is_wanted,
+      const std::function<void(std::size_t, std::size_t, const FormFactorRow&)>& use) const;
+
+  const Sensors& points() const { return points_; }
+  std::size_t bytes() const { return store_.bytes(); }
+  std::size_t refused() const { return refused_; }
+
+ private:
+  FormFactorRow find(std::size_t point, std::size_t look) const;
+
+  const Sensors& points_;
+  double lift_m_;
+  OutwardView outward_;
+  static constexpr std::size_t kLevels = 3;
+  using Methods = std::array<std::unique_ptr<FormFactorMethod>, kLooks>;
+  static Methods methods(const ElementMesh& mesh, const PointGatherOptions& options,
+                         std::size_t level);
+
+  const ElementMesh& mesh_;
+  PointGatherOptions options_;
+  std::array<Methods, kLevels> method_;  ///< by how finely they look; made when they are needed
+  std::vector<std::uint8_t> level_;      ///< [point]
+  FormFactorStore store_;                ///< [look of point]
+  std::size_t refused_ = 0;
+};
+
+}  // namespace tenku

@@ -1,0 +1,198 @@
+#include "radiosity/progressive_refinement.h"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "core/error.h"
+
+namespace tenku {
+namespace {
+
+constexpr std::size_t kBatch = 32;  // patch sides whose rows are found at once
+constexpr std::size_t kMostShots = 1'000'000, kMostShotsAPatch = 100;
+
+constexpr double kMostUnshot = 0.0005;  // of what is emitted: a balance to 0.1 %
+
+class Refinement {
+ public:
+  Refinement(const ElementMesh& mesh, const SurfaceLight& surfaces, std::span<const Rgb> direct)
+      : mesh_(mesh), surfaces_(surfaces), direct_(direct), patch_of_(mesh.size()) {
+    expects(direct.size() == mesh.sides(), "direct light is known on every side");
+    sides_.received.resize(mesh.sides());
+    sides_.unshot.resize(mesh.sides());
+    unshot_lm_.resize(2 * mesh.patches());
+    patch_area_.resize(mesh.patches());
+    for (std::size_t p = 0; p < mesh.patches(); ++p) add_patch(p);
+    total_unshot_lm_ = std::accumulate(unshot_lm_.begin(), unshot_lm_.end(), 0.0);
+  }
+
+  std::vector<std::uint32_t> brightest() {
+    order_.clear();
+    for (std::uint32_t s = 0; s < unshot_lm_.size(); ++s) {
+      if (unshot_lm_[s] > 0.0) order_.push_back(s);
+    }
+    const auto last = order_.begin() + static_cast<std::ptrdiff_t>(std::min(kBatch, order_.size()));
+    std::partial_sort(order_.begin(), last, order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return unshot_lm_[a] != unshot_lm_[b] ? unshot_lm_[a] > unshot_lm_[b] : a < b;
+    });
+    return {order_.begin(), last};
+  }
+
+  void shoot(std::uint32_t patch_side, const FormFactorRow& row) {
+    const Rgb flux = take_unshot(patch_side);
+    double arrived = 0.0;
+    for (const FormFactor& f : row) {
+      const std::size_t e = f.side / 2;
+      const Rgb lux = (f.value / surfaces_.area_m2[e]) * flux;
+      const Rgb sent = surfaces_.reflectance[e] * lux;
+      sides_.received[f.side] = sides_.received[f.side] + lux;
+      sides_.unshot[f.side] = sides_.unshot[f.side] + sent;
+      const double sent_lm = surfaces_.area_m2[e] * luminance_of(sent);
+      unshot_lm_[2 * patch_of_[e] + f.side % 2] += sent_lm;
+      total_unshot_lm_ += sent_lm;
+      arrived += f.value;
+    }
+    const double lm = luminance_of(flux);
+    received_lm_ += arrived * lm;
+    escaped_lm_ += (1.0 - arrived) * lm;
+    ++shots_;
+  }
+
+  /// Sums anew what shots have changed bit by bit.
+  void settle() { total_unshot_lm_ = std::accumulate(unshot_lm_.begin(), unshot_lm_.end(), 0.0); }
+
+  double left_lm() const { return total_unshot_lm_ / (1.0 - surfaces_.most_reflectance); }
+  bool is_within(double tolerance) const {
+    return left_lm() <= tolerance * received_lm_ && total_unshot_lm_ <= kMostUnshot * emitted_lm_;
+  }
+  std::size_t shots() const { return shots_; }
+
+  const SideRadiosity& sides() {
+    sides_.radiosity.resize(mesh_.sides());
+    for (std::size_t s = 0; s < mesh_.sides(); ++s) {
+      const std::size_t e = s / 2;
+      sides_.radiosity[s] = surfaces_.emission_lm_m2[e] +
+                            surfaces_.reflectance[e] * (direct_[s] + sides_.received[s]);
+    }
+    return sides_;
+  }
+
+  /// Unshot light, and all that it becomes, spread over both sides of everything.
+  Rgb ambient() const {
+    Rgb flux, weighted;
+    double area = 0.0;
+    for (std::size_t s = 0; s < mesh_.sides(); ++s) {
+      const std::size_t e = s / 2;
+      flux = flux + surfaces_.area_m2[e] * sides_.unshot[s];
+      weighted = weighted + surfaces_.area_m2[e] * surfaces_.reflectance[e];
+      area += surfaces_.area_m2[e];
+    }
+    const auto spread = [&](double lm, double rho_area) { return lm / (area - rho_area); };
+    return {spread(flux.r, weighted.r), spread(flux.g, weighted.g), spread(flux.b, weighted.b)};
+  }
+
+  /// From the light on each side, not from the sums kept while shooting.
+  LightBalance balance() const {
+    LightBalance b;
+    b.escaped_lm = escaped_lm_;
+    for (std::size_t s = 0; s < mesh_.sides(); ++s) {
+      const std::size_t e = s / 2;
+      const double area = surfaces_.area_m2[e];
+      const Rgb rho = surfaces_.reflectance[e], lux = direct_[s] + sides_.received[s];
+      b.emitted_lm += area * luminance_of(surfaces_.emission_lm_m2[e] + direct_[s]);
+      b.absorbed_lm += area * luminance_of(Rgb{1.0 - rho.r, 1.0 - rho.g, 1.0 - rho.b} * lux);
+      b.unshot_lm += area * luminance_of(sides_.unshot[s]);
+    }
+    return b;
+  }
+
+  SideRadiosity take_sides() {
+    sides();
+    return std::move(sides_);
+  }
+
+ private:
+  void add_patch(std::size_t patch) {
+    for (std::size_t e = mesh_.patch_begin[patch]; e < mesh_.patch_begin[patch + 1]; ++e) {
+      patch_of_[e] = static_cast<std::uint32_t>(patch);
+      patch_area_[patch] += surfaces_.area_m2[e];
+      for (const std::size_t face : {0U, 1U}) {
+        const std::size_t s = 2 * e + face;
+        sides_.unshot[s] = surfaces_.emission_lm_m2[e] + surfaces_.reflectance[e] * direct_[s];
+        received_lm_ += surfaces_.area_m2[e] * luminance_of(direct_[s]);
+        emitted_lm_ +=
+            surfaces_.area_m2[e] * luminance_of(direct_[s] + surfaces_.emission_lm_m2[e]);
+        unshot_lm_[2 * patch + face] += surfaces_.area_m2[e] * luminance_of(sides_.unshot[s]);
+      }
+    }
+  }
+
+  Rgb take_unshot(std::uint32_t patch_side) {
+    Rgb flux;
+    const std::size_t patch = patch_side / 2;
+    for (std::size_t e = mesh_.patch_begin[patch]; e < mesh_.patch_begin[patch + 1]; ++e) {
+      Rgb& unshot = sides_.unshot[2 * e + patch_side % 2];
+      flux = flux + surfaces_.area_m2[e] * unshot;
+      unshot = {};
+    }
+    total_unshot_lm_ -= unshot_lm_[patch_side];
+    unshot_lm_[patch_side] = 0.0;
+    return flux;
+  }
+
+  const ElementMesh& mesh_;
+  const SurfaceLight& surfaces_;
+  std::span<const Rgb> direct_;
+  std::vector<std::uint32_t> patch_of_;
+  std::vector<double> patch_area_;
+  SideRadiosity sides_;
+  std::vector<double> unshot_lm_;  ///< [patch side]
+  std::vector<std::uint32_t> order_;
+  double total_unshot_lm_ = 0.0, emitted_lm_ = 0.0, received_lm_ = 0.0, escaped_lm_ = 0.0;
+  std::size_t shots_ = 0;
+};
+
+}  // namespace
+
+RefinementResult refine_progressively(const ElementMesh& mesh, const SurfaceLight& surfaces,
+                                      std::span<const Rgb> direct, PatchRows& rows,
+                                      const RefinementOptions& options, Progress& progress) {
+  Refinement state(mesh, surfaces, direct);
+  const std::size_t most = options.most_shots > 0
+                               ? options.most_shots
+                               : std::max(kMostShots, kMostShotsAPatch * mesh.patches());
+  progress.begin("shots of light", 0);
+  std::size_t next_watch = 1;
+  const auto show = [&] {
+    if (options.watch) options.watch({state.shots(), state.sides(), state.ambient()});
+  };
+  while (!state.is_within(options.tolerance) && state.shots() < most) {
+    progress.stop_if_cancelled();
+    std::vector<std::uint32_t> batch = state.brightest();
+    if (batch.empty()) break;
+    batch.resize(std::min(batch.size(), most - state.shots()));
+    const auto found = rows.rows_of(batch, progress);
+    for (std::size_t k = 0; k < batch.size(); ++k) {
+      state.shoot(batch[k], *found[k]);
+      if (state.shots() == next_watch) {
+        show();
+        next_watch *= 2;
+      }
+    }
+    state.settle();
+    progress.advance(batch.size());
+  }
+  show();
+  RefinementResult result;
+  result.shots = state.shots();
+  result.left_lm = state.left_lm();
+  result.is_converged = state.is_within(options.tolerance);
+  result.balance = state.balance();
+  result.sides = state.take_sides();
+  progress.end(std::to_string(result.shots) + " shots");
+  return result;
+}
+
+}  // namespace tenku
