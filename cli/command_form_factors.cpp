@@ -135,8 +135,7 @@ void check_request(const FormFactorCommandOptions& options) {
   if (options.tolerance_pct && !(*options.tolerance_pct > 0.0 && *options.tolerance_pct <= 100.0)) {
     throw InputError("--tolerance is more than 0 and at most 100 percent");
   }
-  if (!form_factor_method(options.method, {}, {options.resolution, options.polyline_deg, 1}))
-    return;
+  check_form_factor_method(options.method, {options.resolution, options.polyline_deg, 1});
   check_can_write(options.out);
 }
 

@@ -1,6 +1,7 @@
 #include "radiosity/disc_outlines.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace tenku {
@@ -15,12 +16,23 @@ DiscOutlines::DiscOutlines(const ElementMesh& mesh, const PointView& view, doubl
 std::span<const PlanePoint> DiscOutlines::operator()(const SeenSide& seen) {
   point_.clear();
   normal_.clear();
-  const ConvexPolygon polygon = view_.polygon(mesh_, seen);
-  if (polygon.empty()) return {};
-  const Vec3 start = normalized(polygon[0]);
+  const auto& [i, j, k] = mesh_.elements[seen.side / 2];
+  const std::array<Vec3, 3> corner{view_.vertex[i], view_.vertex[j], view_.vertex[k]};
+  if (std::min({corner[0].z, corner[1].z, corner[2].z}) >= 0.0) {  // most are not cut
+    add_outline(corner);
+  } else {
+    const ConvexPolygon polygon = view_.polygon(mesh_, seen);
+    add_outline({polygon.begin(), polygon.size()});
+  }
+  return point_;
+}
+
+void DiscOutlines::add_outline(std::span<const Vec3> corner) {
+  if (corner.empty()) return;
+  const Vec3 start = normalized(corner[0]);
   Vec3 from = start;
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const Vec3 to = k + 1 < polygon.size() ? normalized(polygon[k + 1]) : start;
+  for (std::size_t k = 0; k < corner.size(); ++k) {
+    const Vec3 to = k + 1 < corner.size() ? normalized(corner[k + 1]) : start;
     if (by_polylines_) {
       add_polyline(from, to);
     } else {
@@ -28,7 +40,6 @@ std::span<const PlanePoint> DiscOutlines::operator()(const SeenSide& seen) {
     }
     from = to;
   }
-  return point_;
 }
 
 /// The beginning of the arc and the place where y turns, if it does, but not the end. Along the arc

@@ -45,6 +45,7 @@ class DiscOutlines {
   Range range();
 
  private:
+  void add_outline(std::span<const Vec3> corner);
   void add_polyline(Vec3 from, Vec3 to);
   void add_arc(Vec3 from, Vec3 to, Vec3 normal);
 
