@@ -49,8 +49,8 @@ IlluminanceResult SceneLight::illuminate(const Sensors& sensors, const Illuminan
   IlluminanceResult result =
       tenku::illuminate(sensors, lit_.engines(), lit_.source(), direct, method, progress);
   if (!light_) solve(direct, method, progress);
-  const InteriorSensors look = interior_->look_from(sensors, progress);
-  interior_->add_reflected(look, *light_, result.values);
+  InteriorSensors look = interior_->look_from(sensors);
+  interior_->add_reflected(look, *light_, result.values, progress);
   result.findings.insert(result.findings.end(), findings_.begin(), findings_.end());
   findings_.clear();
   judge_whole(sensors, lit_.source(), options, result);
