@@ -115,7 +115,7 @@ class AnalyticFormFactors : public FormFactorMethod {
   }
 
  private:
-  static constexpr std::size_t kCrowd = 64;
+  static constexpr std::size_t kCrowd = 512;
 
   static double exact(const PointView& view, const SeenGrid& grid, std::uint32_t s,
                       const std::vector<std::uint32_t>& before) {

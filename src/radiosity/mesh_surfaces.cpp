@@ -19,7 +19,8 @@
 namespace tenku {
 namespace {
 
-constexpr double kElementsAcross = 32.0;
+constexpr double kElementsAcross = 32.0, kUsualTolerance = 2.0;  // at that tolerance
+constexpr double kCoarsening = 0.75, kFinest = 0.5, kCoarsest = 4.0;
 constexpr double kElementsUnasked = 50'000.0;
 constexpr double kPatchOfElement = 2.0;
 constexpr double kMostElements = 1e8;  // 10 GB with what belongs to them
@@ -90,7 +91,10 @@ double chosen_size(const std::vector<FlatPolygon>& polygons, double longest,
     return size_for(polygons, undivided, static_cast<double>(options.elements_max));
   }
   const double most = kElementsUnasked + expected_elements(polygons, undivided);
-  return std::max(longest / kElementsAcross, size_for(polygons, undivided, most));
+  // What linear interpolation misses goes with the square of the length.
+  const double coarser = std::pow(options.tolerance_pct / kUsualTolerance, kCoarsening);
+  const double across = kElementsAcross / std::clamp(coarser, kFinest, kCoarsest);
+  return std::max(longest / across, size_for(polygons, undivided, most));
 }
 
 MeshOptions sized(const std::vector<FlatPolygon>& polygons, double longest, MeshOptions options) {

@@ -19,6 +19,7 @@ struct MeshOptions {
   double element_min_m = 0.0;    ///< what is chosen for it is no less than this (`--size-min`)
   double patch_m = 0.0;          ///< longest diagonal of a patch
   std::size_t elements_max = 0;  ///< not to be passed (`--elements-max`)
+  double tolerance_pct = 2.0;    ///< of what is calculated on it: goes into the size that is chosen
 };
 
 /// A mesh, and what is to be told of it.
@@ -38,9 +39,10 @@ struct MeshedScene {
 /// gives the same mesh, for any number of threads.
 ///
 /// An element is as long as given. Where it is not given it is as long as `elements_max` allows, or
-/// without that a 32nd of the scene's longest side, or what allows 50,000 elements more than the
-/// polygons need in any case. Where more than `elements_max` come out all the same, elements are
-/// made longer. A patch is twice as long as an element where it is not given.
+/// without that a 32nd of the scene's longest side at a tolerance of 2 % (half to four times that,
+/// as the tolerance to the power 0.75), or what allows 50,000 elements more than the polygons need
+/// in any case. Where more than `elements_max` come out all the same, elements are made longer. A
+/// patch is twice as long as an element where it is not given.
 ///
 /// @throws InputError  a size that is negative or not finite; sizes that would give more than a
 ///                     hundred million elements; a material that `scene` does not have

@@ -31,7 +31,10 @@ void VisiblePolygon::hide_behind(const ConvexPolygon& other) {
   const ConvexPolygon before = cut(other, [&](Vec3 p) { return 1.0 - dot(nearness_, p); });
   if (before.empty()) return;
   // The planes through edges look inward where the corners run counter-clockwise.
-  const Vec3 normal = cross(before[1] - before[0], before[2] - before[0]);
+  Vec3 normal{};
+  for (std::size_t k = 2; k < before.size(); ++k) {
+    normal = normal + cross(before[k - 1] - before[0], before[k] - before[0]);
+  }
   const double sense = dot(normal, before[0]) < 0.0 ? -1.0 : 1.0;
   next_.clear();
   for (const ConvexPolygon& piece : piece_) take_away(piece, before, sense);
@@ -49,7 +52,9 @@ void VisiblePolygon::take_away(const ConvexPolygon& piece, const ConvexPolygon& 
   const std::size_t before = next_.size();
   ConvexPolygon rest = piece;
   for (std::size_t k = 0; k < other.size() && !rest.empty(); ++k) {
-    const Vec3 inward = sense * cross(other[k], other[k + 1 < other.size() ? k + 1 : 0]);
+    const Vec3 from = other[k], to = other[k + 1 < other.size() ? k + 1 : 0];
+    if (!(length(to - from) > kTouching * length(to))) continue;  // no plane: twice the same corner
+    const Vec3 inward = sense * cross(from, to);
     const ConvexPolygon outside = cut(rest, [&](Vec3 p) { return -dot(inward, p); });
     if (!outside.empty()) next_.push_back(outside);
     rest = cut(rest, [&](Vec3 p) { return dot(inward, p); });

@@ -1,6 +1,7 @@
 /// What is nearest along a scan line.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -42,10 +43,11 @@ class VisibleSpans {
   };
 
   Vec3 direction(double x) const;
+  static bool hides(Vec3 one, Vec3 other, const std::array<Vec3, 3>& places);
   void open(const DiscSpan& span);
   void advance(double x);
   void resolve(double from, double to, int depth);
-  const Open& nearest(Vec3 direction, Vec3 then) const;
+  const Open& nearest(Vec3 direction) const;
   double order_changes(Vec3 difference, double from, double to) const;
 
   const PointView& view_;

@@ -24,7 +24,8 @@ bool SceneLight::is_by_radiosity(const IlluminanceOptions& options) const {
 
 void SceneLight::solve(const IlluminanceOptions& direct, const LightMethod& method,
                        Progress& progress) {
-  MeshedScene meshed = mesh_scene(lit_.scene(), lit_.soup(), {});
+  MeshedScene meshed =
+      mesh_scene(lit_.scene(), lit_.soup(), {.tolerance_pct = direct.tolerance_pct});
   mesh_ = std::make_unique<ElementMesh>(std::move(meshed.mesh));
   findings_ = std::move(meshed.findings);
   InteriorOptions how;
