@@ -25,7 +25,7 @@ struct FormFactorCommandOptions {
   std::string method = "analytic", by = "object", out;
   bool two_sided = false;
   int resolution = 512;
-  double polyline_deg = 1.0;
+  double polyline_deg = 0.0;
   std::optional<double> tolerance_pct;
 };
 
@@ -135,8 +135,7 @@ void check_request(const FormFactorCommandOptions& options) {
   if (options.tolerance_pct && !(*options.tolerance_pct > 0.0 && *options.tolerance_pct <= 100.0)) {
     throw InputError("--tolerance is more than 0 and at most 100 percent");
   }
-  if (!form_factor_method(options.method, {}, {options.resolution, options.polyline_deg, 1}))
-    return;
+  check_form_factor_method(options.method, {options.resolution, options.polyline_deg, 1});
   check_can_write(options.out);
 }
 
@@ -175,8 +174,9 @@ CommandBody make_form_factors_command(CLI::App& app) {
   app.add_flag("--two-sided", options->two_sided, "let every polygon see from both faces");
   app.add_option("--resolution", options->resolution,
                  "lines of the disc, or pixels along the edge of the hemicube (default 512)");
-  app.add_option("--polyline", options->polyline_deg,
-                 "degrees over which an edge is straight on the disc (default 1)");
+  app.add_option(
+      "--polyline", options->polyline_deg,
+      "degrees over which an edge is straight on the disc; 0 (default): arcs as they are");
   app.add_option("--by", options->by, "what makes a group: object (default), group or material");
   app.add_option("--tolerance", options->tolerance_pct,
                  "error of the integration asked for, percent of each form factor");

@@ -12,7 +12,7 @@ namespace tenku {
 /// A convex polygon with few corners: a triangle cut by some planes.
 class ConvexPolygon {
  public:
-  static constexpr std::size_t kMaximum = 16;
+  static constexpr std::size_t kMaximum = 10;
 
   ConvexPolygon() = default;
   ConvexPolygon(Vec3 a, Vec3 b, Vec3 c) : size_(3), corner_{a, b, c} {}

@@ -43,9 +43,10 @@ void check_form_factor_method(std::string_view name, const FormFactorOptions& op
                      std::to_string(kMaximumResolution) + ", not " +
                      std::to_string(options.resolution));
   }
-  if (!(options.polyline_deg > 0.0 && options.polyline_deg <= 45.0)) {
+  if (!(options.polyline_deg == 0.0 ||
+        (options.polyline_deg >= 0.01 && options.polyline_deg <= 45.0))) {
     throw InputError(
-        "edges on the disc are straight over more than 0 and at most 45 degrees, not " +
+        "edges on the disc are straight over 0.01 to 45 degrees, or arcs with 0; not " +
         std::to_string(options.polyline_deg));
   }
 }

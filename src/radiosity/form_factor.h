@@ -48,7 +48,7 @@ class FormFactorMethod {
 /// What the methods share.
 struct FormFactorOptions {
   int resolution = 128;       ///< lines of the disc, or pixels along the edge of the hemicube
-  double polyline_deg = 1.0;  ///< edges on the disc are straight over at most this angle
+  double polyline_deg = 0.0;  ///< edges on the disc are straight over at most this angle; 0: arcs
   std::uint64_t seed = 1;     ///< of methods that sample
 };
 

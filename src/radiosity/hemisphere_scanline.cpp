@@ -40,6 +40,8 @@ class LineSpans {
       : begin_(static_cast<std::size_t>(lines.count) + 1) {
     std::vector<std::uint32_t> line_of;
     std::vector<DiscSpan> all;
+    line_of.reserve(4 * view.seen.size());
+    all.reserve(4 * view.seen.size());
     ScanLines scan(lines);
     for (std::uint32_t s = 0; s < view.seen.size(); ++s) {
       const auto add = [&](int line, double x0, double x1) {

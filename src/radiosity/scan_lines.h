@@ -30,23 +30,28 @@ struct LineSet {
 class ScanLines {
  public:
   explicit ScanLines(const LineSet& lines)
-      : lines_(lines), crossing_(static_cast<std::size_t>(std::max(0, lines.count))) {}
+      : lines_(lines),
+        per_step_(1.0 / lines.step),
+        crossing_(static_cast<std::size_t>(std::max(0, lines.count))) {}
 
   /// Calls `emit(line, x0, x1)` for each span of the outline, x0 < x1, line after line.
   /// @param crossing  `crossing(k, y, x)`: where the edge from point k, which crosses the line at y
   ///                  in x if it is straight, really does
   template <class Emit, class Crossing>
   void spans(std::span<const PlanePoint> outline, const Emit& emit, const Crossing& crossing) {
+    if (outline.empty()) return;
     int low = lines_.count, high = -1;
-    for (std::size_t k = 0; k < outline.size(); ++k) {
-      const PlanePoint a = outline[k], b = outline[k + 1 < outline.size() ? k + 1 : 0];
-      const PlanePoint &bottom = a.y < b.y ? a : b, &top = a.y < b.y ? b : a;
-      const int begin = line_from(bottom.y), end = line_from(top.y);
-      if (begin >= end) continue;
+    std::size_t k = outline.size() - 1;
+    int at_a = line_from(outline[k].y);
+    for (std::size_t next = 0; next < outline.size(); k = next++) {
+      const PlanePoint a = outline[k], b = outline[next];
+      const int at_b = line_from(b.y), begin = std::min(at_a, at_b), end = std::max(at_a, at_b);
+      at_a = at_b;
+      if (begin == end) continue;
       low = std::min(low, begin), high = std::max(high, end - 1);
-      const double slope = (top.x - bottom.x) / (top.y - bottom.y);
+      const double slope = (b.x - a.x) / (b.y - a.y);
       for (int line = begin; line < end; ++line) {
-        const double y = lines_.y(line), x = bottom.x + (y - bottom.y) * slope;
+        const double y = lines_.y(line), x = a.x + (y - a.y) * slope;
         crossing_[static_cast<std::size_t>(line)].add(crossing(k, y, x));
       }
     }
@@ -89,11 +94,14 @@ class ScanLines {
 
   /// First line at `y` or above it.
   int line_from(double y) const {
-    const double line = std::ceil((y - lines_.first) / lines_.step);
-    return static_cast<int>(std::clamp(line, 0.0, static_cast<double>(lines_.count)));
+    const double at = (y - lines_.first) * per_step_;
+    if (!(at > 0.0)) return 0;
+    const int below = static_cast<int>(std::min(at, lines_.count + 1.0));
+    return std::min(lines_.count, below + (at > below ? 1 : 0));
   }
 
   LineSet lines_;
+  double per_step_;
   std::vector<Crossings> crossing_;  ///< of the outline at hand, [line]
 };
 

@@ -188,7 +188,7 @@ TEST(FormFactorMethodName, IsSuggestedWhereItIsMistyped) {
 TEST(FormFactorMethodOptions, OutOfRangeAreRefused) {
   const ElementMesh mesh = box_mesh({1, 1, 1}, 1);
   EXPECT_THROW(form_factor_method("hemisphere-rays", mesh, {.resolution = 0}), InputError);
-  EXPECT_THROW(form_factor_method("hemisphere-rays", mesh, {.polyline_deg = 0.0}), InputError);
+  EXPECT_THROW(form_factor_method("hemisphere-rays", mesh, {.polyline_deg = -1.0}), InputError);
 }
 
 }  // namespace

@@ -83,6 +83,28 @@ TEST(GroupMatrix, StopsWhenAsked) {
   EXPECT_THROW(group_form_factors(*method, mesh, 12, {}, progress), Cancelled);
 }
 
+TEST(Polylines, LoseWhatChordsCutOff) {
+  // A square of 2 m at 1 m over the point: Howell B-3 four times. Chords over t radians lose up to
+  // t^2 / 6 of an area that is bounded by arcs, 2 % for 20 degrees.
+  const double r = std::sqrt(2.0), whole = 4.0 / kPi / r * std::atan(1.0 / r);
+  ElementMesh mesh;
+  add_polygon(mesh, {{-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}});
+  const auto total = [&](double polyline_deg) {
+    double sum = 0.0;
+    for (const FormFactor& f :
+         form_factor_method("hemisphere-scanline", mesh,
+                            {.resolution = 4096, .polyline_deg = polyline_deg})
+             ->from_point({0, 0, 0}, kZenith)) {
+      sum += f.value;
+    }
+    return sum;
+  };
+  EXPECT_NEAR(total(0.0), whole, 1e-6);
+  EXPECT_NEAR(total(1.0), whole, 6e-5 * whole);
+  EXPECT_LT(total(20.0), whole * (1.0 - 0.002));
+  EXPECT_GT(total(20.0), whole * (1.0 - 0.021));
+}
+
 TEST(PatchRow, TellsAnErrorThatCoversWhatItIsWrongBy) {
   // A wall stands on the edge of a floor: 0.200 043 776 (Howell C-14).
   ElementMesh mesh;
