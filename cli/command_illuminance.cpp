@@ -12,7 +12,7 @@
 #include "output/field_writer.h"
 #include "output/table_writer.h"
 #include "study/illuminance_field.h"
-#include "study/scene_light.h"
+#include "study/scene_reflection.h"
 
 namespace tenku {
 namespace {
@@ -53,10 +53,15 @@ int illuminance(const IlluminanceCommandOptions& options, const CommandContext& 
   const auto start = std::chrono::steady_clock::now();
   const LitScene lit = load_lit_scene(options.lit, context.progress);
   const PlacedSensors placed = place_sensors(options.sensors, lit);
-  const IlluminanceOptions how = illuminance_options(options.lit, context.options);
-  SceneLight light(lit, reflection_named(options.lit.reflection));
-  const IlluminanceResult result =
-      light.illuminate(placed.sensors, how, light_method(options.lit), context.progress);
+  IlluminanceOptions how = illuminance_options(options.lit, context.options);
+  const LightMethod method = light_method(options.lit);
+  SceneReflection reflection(lit, reflection_named(options.lit.reflection));
+  how.reflection = reflection.finder(how, method);
+  IlluminanceResult result =
+      illuminate(placed.sensors, lit.engines(), lit.source(), how, method, context.progress);
+  for (Finding& finding : reflection.take_findings()) {
+    result.findings.push_back(std::move(finding));
+  }
   write_result(options, lit, placed, result);
   return close_calculation(context.options, lit,
                            {.start = start,

@@ -113,7 +113,9 @@ class RadiosityRun {
   ElementMesh make_mesh() {
     const Stopwatch watch;
     context_.progress.begin("mesh", 0);
-    MeshedScene meshed = mesh_scene(lit_.scene(), lit_.soup(), options_.sizes);
+    MeshOptions sizes = options_.sizes;
+    sizes.tolerance_pct = options_.lit.tolerance_pct;
+    MeshedScene meshed = mesh_scene(lit_.scene(), lit_.soup(), sizes);
     context_.progress.end(std::to_string(meshed.mesh.size()) + " elements");
     mesh_findings_ = std::move(meshed.findings);
     mesh_s_ = watch.seconds();

@@ -8,6 +8,7 @@
 #include "cli/view_options.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "study/scene_reflection.h"
 #include "study/view_output.h"
 #include "view/eye_inside.h"
 #include "view/view_render.h"
@@ -28,9 +29,13 @@ int render(const RenderOptions& options, const CommandContext& context) {
   check_view_options(options.view);
   const auto start = std::chrono::steady_clock::now();
   const LitScene lit = load_lit_scene(options.lit, context.progress);
-  const ViewRequest request = view_request(options.view, options.lit, lit, context.options);
+  ViewRequest request = view_request(options.view, options.lit, lit, context.options);
+  SceneReflection reflection(lit, reflection_named(options.lit.reflection));
+  request.reflection =
+      reflection.finder(illuminance_options(options.lit, context.options), request.method);
   RenderedView view =
       render_view(request, lit.engines(), lit.source(), lit.sky().model.get(), context.progress);
+  for (Finding& finding : reflection.take_findings()) view.findings.push_back(std::move(finding));
   if (auto inside = eye_inside(request.view.eye, lit.scene(), lit.rays())) {
     view.findings.push_back(std::move(*inside));
   }

@@ -218,8 +218,9 @@ IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
                              const DaylightSource& source, const IlluminanceOptions& options,
                              Progress& progress) {
   check_options(options);
-  if (options.share_reflected_m > 0.0 && options.bounces > 0 && !options.known_direct) {
-    // Direct light of every sensor, reflected light of some of them, spread over the others.
+  const bool is_apart = options.share_reflected_m > 0.0 || options.reflection != nullptr;
+  if (is_apart && options.bounces > 0 && !options.known_direct) {
+    // Direct light of every sensor; then reflected light, or that of some spread over the others.
     IlluminanceOptions direct = options;
     direct.bounces = 0;
     IlluminanceResult result = illuminate(sensors, rays, source, direct, progress);
@@ -258,6 +259,15 @@ void add_shared_reflection(const ReflectedSharing& sharing, const RayVisibility&
                            const DaylightSource& source, const IlluminanceOptions& options,
                            Progress& progress, IlluminanceResult& result) {
   const Sensors few = sensors_of(sharing.sensors(), sharing.calculated());
+  if (options.reflection != nullptr) {
+    SensorIlluminance values(few.size());
+    for (std::size_t k = 0; k < few.size(); ++k) {
+      values.sky_lux[k] = result.values.sky_lux[sharing.calculated()[k]];
+    }
+    (*options.reflection)(few, values, progress);
+    sharing.spread(values, result.values);
+    return;
+  }
   IlluminanceOptions::KnownDirect known;
   for (const std::uint32_t s : sharing.calculated()) {
     // Without sunlight: the sensor may stand for others in the shade beside it.
@@ -288,6 +298,10 @@ void add_reflection(const Sensors& sensors, const RayVisibility& rays, const Day
         sensors, sharing_by_distance(sensors, result.values.sky_view, options.share_reflected_m),
         rays);
     add_shared_reflection(sharing, rays, source, reflected, progress, result);
+    return judge_whole(sensors, source, options, result);
+  }
+  if (options.reflection != nullptr) {
+    (*options.reflection)(sensors, result.values, progress);
     return judge_whole(sensors, source, options, result);
   }
   IlluminanceOptions::KnownDirect known;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/finding.h"
@@ -14,6 +15,11 @@
 #include "visibility/ray_visibility.h"
 
 namespace tenku {
+
+/// Finds the light between surfaces other than by paths: fills `reflected_lux` of sensors whose
+/// direct light is in `values`, and adds to `error_lux`.
+using ReflectionFinder =
+    std::function<void(const Sensors& sensors, SensorIlluminance& values, Progress& progress)>;
 
 struct IlluminanceOptions {
   double tolerance_pct = 2.0;
@@ -32,6 +38,7 @@ struct IlluminanceOptions {
     std::vector<double> lux, sky_view;
   };
   const KnownDirect* known_direct = nullptr;
+  const ReflectionFinder* reflection = nullptr;  ///< in place of paths. Borrowed
   bool by_slices = false;  ///< even where `source.elements` is given
 };
 

@@ -34,7 +34,8 @@ struct LightMethod {
   EngineChoice engine = EngineChoice::Auto;
   Detail detail = Detail::Budget;
   /// Above zero: the sensors are a picture, and regions lit by maps are good enough if their mean
-  /// absolute error is within 0.3 of this, in percent of the unobstructed light.
+  /// absolute error is within 0.3 of this, in percent of the unobstructed light, or of four times
+  /// the mean light of the region if that is less.
   double picture_tolerance_pct = 0.0;
   double mu = 1.0;                         ///< `Detail::Paper`: threshold of PaperDetail
   std::optional<Vec3> eye;                 ///< of a picture: its regions lie from near to far

@@ -43,6 +43,7 @@ constexpr double kMoreElements = 1.4142135623730951;
 constexpr double kDark = 0.05;         // of the unobstructed light
 constexpr double kNearShare = 0.5;     // of that, for the near half; the far one has what is left
 constexpr double kPictureShare = 0.3;  // of the tolerance, for the mean error of a picture
+constexpr double kBright = 4.0;        // times the mean light of a picture
 constexpr double kPartOfReach = 0.1;   // of the tolerance, for casters that are left out
 
 double texel_of(double tolerance_pct) {
@@ -269,9 +270,16 @@ class RegionPlanner {
     work.told.predicted_error_lux = intervals / count;
     if (is_picture()) {
       return missed / count <= kPictureShare * work.weight * method_.picture_tolerance_pct / 100.0 *
-                                   source_.unobstructed_lux();
+                                   white_lux(work.pilots);
     }
     return static_cast<double>(good) >= Pilots::kConfidence * count;
+  }
+
+  /// What the errors of a picture are seen against: open light, or in a room what is bright there.
+  double white_lux(const Pilots& pilots) const {
+    const double sum = std::accumulate(pilots.lux.begin(), pilots.lux.end(), 0.0);
+    const double mean = sum / static_cast<double>(std::max<std::size_t>(1, pilots.lux.size()));
+    return std::min(source_.unobstructed_lux(), kBright * mean);
   }
 
   /// How far casters matter: what the elements behind farther ones would add is within a small part

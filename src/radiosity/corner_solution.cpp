@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <utility>
@@ -167,30 +168,65 @@ class CornerSolver {
 
 }  // namespace
 
+/// Which lamps any corner of a plane has in sight, by the rays of its rows.
+class LampsInSight {
+ public:
+  LampsInSight(const SidePoints& points, const EmitterLight& lamps, const PointGather& gather,
+               std::span<const std::uint8_t> is_lit)
+      : lamps_(lamps.size()), seen_(points.planes * lamps_) {
+    gather.for_rows(is_lit, [&](std::size_t i, std::size_t, const FormFactorRow& row) {
+      for (const FormFactor& f : row) {
+        const std::uint32_t lamp = lamps.lamp_of(f.side / 2);
+        if (lamp == EmitterLight::kNoLamp) continue;
+        std::atomic_ref(seen_[points.plane[i] * lamps_ + lamp]).store(1, std::memory_order_relaxed);
+      }
+    });
+  }
+  std::span<const std::uint8_t> of_plane(std::uint32_t plane) const {
+    return std::span(seen_).subspan(plane * lamps_, lamps_);
+  }
+
+ private:
+  std::size_t lamps_;
+  std::vector<std::uint8_t> seen_;
+};
+
 LampsOnMesh lamps_on_mesh(const ElementMesh& mesh, const SurfaceLight& surfaces,
                           const SidePoints& points, const EmitterLight& lamps,
                           const PointGather& gather, std::span<const std::uint8_t> is_lit,
                           double lift_m) {
   LampsOnMesh found;
+  found.corner.resize(points.size());
   found.left_to_rows.resize(points.size());
   found.middle.resize(mesh.sides());
   found.has_middle.assign(mesh.sides(), 1);
-  found.corner = light_of_lamps(lamps, points.sensors, is_lit, lift_m, kLampRays);
   if (!surfaces.any_emits) return found;
+  if (lamps.is_any()) {
+    const LampsInSight in_sight(points, lamps, gather, is_lit);
+    const auto light_at = [&](Vec3 position, Vec3 normal, std::uint32_t plane) {
+      return lamps.at(position + lift_m * normal, normal, kLampRays, in_sight.of_plane(plane));
+    };
+    parallel_for(points.size(), kGrain, [&](IndexRange range) {
+      for (std::size_t i = range.begin; i < range.end; ++i) {
+        if (is_lit[i] == 0) continue;
+        found.corner[i] =
+            light_at(points.sensors.position[i], points.sensors.normal[i], points.plane[i]);
+      }
+    });
+    parallel_for(mesh.sides(), kGrain, [&](IndexRange range) {
+      for (std::size_t s = range.begin; s < range.end; ++s) {
+        const auto& corner = points.corner[s];
+        if (is_lit[corner[0]] == 0) continue;
+        const auto middle = light_at(mesh.centre(s / 2), mesh.normal(s), points.plane[corner[0]]);
+        found.middle[s] = middle.lux;
+        for (const std::uint32_t i : corner) {
+          found.has_middle[s] &= found.corner[i].lamp == middle.lamp;
+        }
+      }
+    });
+  }
   gather.for_rows(is_lit, [&](std::size_t i, std::size_t look, const FormFactorRow& row) {
     found.left_to_rows[i][look] = emission_left_to_row(surfaces, lamps, found.corner[i], row);
-  });
-  if (!lamps.is_any()) return found;
-  parallel_for(mesh.sides(), kGrain, [&](IndexRange range) {
-    for (std::size_t s = range.begin; s < range.end; ++s) {
-      if (is_lit[points.corner[s][0]] == 0) continue;
-      const Vec3 normal = mesh.normal(s);
-      const auto middle = lamps.at(mesh.centre(s / 2) + lift_m * normal, normal, kLampRays);
-      found.middle[s] = middle.lux;
-      for (const std::uint32_t i : points.corner[s]) {
-        found.has_middle[s] &= found.corner[i].lamp == middle.lamp;
-      }
-    }
   });
   return found;
 }

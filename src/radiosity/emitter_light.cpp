@@ -169,12 +169,14 @@ double EmitterLight::seen(std::uint32_t number, Vec3 position, Vec3 normal, int 
   return all > 0.0 ? lit / all : 0.0;
 }
 
-EmitterLight::Direct EmitterLight::at(Vec3 position, Vec3 normal, int rays) const {
+EmitterLight::Direct EmitterLight::at(Vec3 position, Vec3 normal, int rays,
+                                      std::span<const std::uint8_t> in_sight) const {
   std::vector<double> rough;
   double sum = 0.0;
-  for (const Lamp& lamp : lamp_) {
-    rough.push_back(rough_factor(lamp, position, normal));
-    sum += rough.back() * luminance_of(lamp.exitance);
+  for (std::size_t k = 0; k < lamp_.size(); ++k) {
+    const bool is_hidden = !in_sight.empty() && in_sight[k] == 0;
+    rough.push_back(is_hidden ? 0.0 : rough_factor(lamp_[k], position, normal));
+    sum += rough.back() * luminance_of(lamp_[k].exitance);
   }
   Direct direct;
   const int first = std::min(kFirstRays, rays / 8);

@@ -48,9 +48,12 @@ class EmitterLight {
   };
   /// @param position  lifted
   /// @param rays      at most, to a lamp that is seen in part
-  Direct at(Vec3 position, Vec3 normal, int rays) const;
+  /// @param in_sight  [lamp], 0 for those that are not: left to the row; empty: all may be
+  Direct at(Vec3 position, Vec3 normal, int rays,
+            std::span<const std::uint8_t> in_sight = {}) const;
 
   bool is_any() const { return !lamp_.empty(); }
+  std::size_t size() const { return lamp_.size(); }
   /// Number of the lamp that an element is a part of, or `kNoLamp`.
   std::uint32_t lamp_of(std::size_t element) const { return lamp_of_[element]; }
   static constexpr std::uint32_t kNoLamp = ~0U;

@@ -12,7 +12,7 @@
 #include "study/ground_plan.h"
 #include "study/illuminance_field.h"
 #include "study/lit_scene.h"
-#include "study/scene_light.h"
+#include "study/scene_reflection.h"
 #include "study/stage_clock.h"
 #include "study/study_report.h"
 #include "study/study_sky.h"
@@ -94,13 +94,16 @@ class StudyRun {
               return sky_of(study, moment_);
             },
             study.calculation.partition, study.calculation.gl, progress_),
-        light_(lit_, study.calculation.reflection),
+        reflection_(lit_, study.calculation.reflection),
         report_(study, lit_, moment_) {}
 
   void render(const StudyView& view) {
-    const ViewRequest request = view_request_of(view, study_, lit_);
+    ViewRequest request = view_request_of(view, study_, lit_);
+    request.reflection =
+        reflection_.finder(illuminance_options_of(study_.calculation), request.method);
     RenderedView picture =
         render_view(request, lit_.engines(), lit_.source(), lit_.sky().model.get(), progress_);
+    take_findings(picture.findings);
     add(eye_inside(request.view.eye, lit_.scene(), lit_.rays()), picture.findings);
     add(wide_texels(picture.regions, lit_.scene().frame), picture.findings);
     for (const std::string& format : view.formats) {
@@ -178,12 +181,19 @@ class StudyRun {
   IlluminanceResult light(const Sensors& sensors, double share_reflected_m) {
     IlluminanceOptions options = illuminance_options_of(study_.calculation);
     options.share_reflected_m = share_reflected_m;
+    const LightMethod method = method_of(study_.calculation);
+    options.reflection = reflection_.finder(options, method);
     IlluminanceResult result =
-        light_.illuminate(sensors, options, method_of(study_.calculation), progress_);
+        illuminate(sensors, lit_.engines(), lit_.source(), options, method, progress_);
+    take_findings(result.findings);
     add(wide_texels(result.regions, lit_.scene().frame), result.findings);
     outcome_.out_of_tolerance += result.out_of_tolerance;
     report_.add_light(result);
     return result;
+  }
+
+  void take_findings(std::vector<Finding>& findings) {
+    for (Finding& finding : reflection_.take_findings()) findings.push_back(std::move(finding));
   }
 
   fs::path place(const std::string& name) {
@@ -196,7 +206,7 @@ class StudyRun {
   StageClock progress_;
   StudyMoment moment_;
   LitScene lit_;
-  SceneLight light_;
+  SceneReflection reflection_;
   ReportBuilder report_;
   StudyOutcome outcome_;
 };

@@ -169,6 +169,7 @@ RenderedView render_view(const ViewRequest& request, const Engines& engines,
   if (request.bounces > 0 && points.sensors.size() > 0) {
     IlluminanceOptions options = options_of(request);
     options.bounces = request.bounces;
+    options.reflection = request.reflection;
     // Some twenty representatives are blended in a pixel.
     const ReflectedSharing sharing(points.sensors, sharing_by_pixels(points, work.camera),
                                    engines.rays());

@@ -18,7 +18,8 @@ struct ViewRequest {
   double tolerance_pct = 2.0;  ///< of the light on what is seen; see `RenderedView`
   int bounces = 5;
   std::uint64_t seed = 1;
-  LightMethod method;  ///< its eye and polygons are those of the view
+  const ReflectionFinder* reflection = nullptr;  ///< in place of paths. Borrowed
+  LightMethod method;                            ///< its eye and polygons are those of the view
 };
 
 /// What the camera sees.

@@ -48,7 +48,7 @@ void write_room(const fs::path& folder) {
              "[floor]\nreflectance = 0.2\n[wall]\nreflectance = 0.5\n[ceil]\nreflectance = 0.7\n");
 }
 
-const std::string kRoom = "radiosity room.obj --materials room.toml --size-max 0.5";
+const std::string kRoom = "radiosity room.obj --materials room.toml";
 const std::string kOvercast = " --sky cie-overcast --sky-illuminance 10000";
 
 TEST(RadiosityCommand, LightsASideLitRoom) {
@@ -60,8 +60,8 @@ TEST(RadiosityCommand, LightsASideLitRoom) {
     points += truth.text(i, "x") + " " + truth.text(i, "y") + " " + truth.text(i, "z") + " 0 0 1\n";
   }
   write_text(folder / "room.pts", points);
-  const auto run =
-      run_tenku(kRoom + kOvercast + " --sensors room.pts --out room.csv --json", folder);
+  const auto run = run_tenku(
+      kRoom + kOvercast + " --size-max 0.5 --sensors room.pts --out room.csv --json", folder);
   ASSERT_TRUE(run.exit_code == 0 || run.exit_code == 3) << run.err;
   const ReferenceTable found(folder / "room.csv");
   ASSERT_EQ(found.size(), truth.size());

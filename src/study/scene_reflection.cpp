@@ -1,0 +1,56 @@
+#include "study/scene_reflection.h"
+
+#include <utility>
+
+#include "radiosity/mesh_surfaces.h"
+
+namespace tenku {
+namespace {
+
+constexpr double kRoom_m = 60.0;
+constexpr std::size_t kRoomTriangles = 20000;
+constexpr int kAllBounces = 5;
+
+}  // namespace
+
+SceneReflection::SceneReflection(const LitScene& lit, Reflection how) : lit_(lit), how_(how) {
+  finder_ = [this](const Sensors& sensors, SensorIlluminance& values, Progress& progress) {
+    if (!light_) solve(progress);
+    InteriorSensors look = interior_->look_from(sensors);
+    interior_->add_reflected(look, *light_, values, progress);
+  };
+}
+
+bool SceneReflection::is_by_radiosity(int bounces) const {
+  if (how_ == Reflection::Paths || bounces < kAllBounces) return false;
+  if (how_ == Reflection::Radiosity) return true;
+  return lit_.soup().size() <= kRoomTriangles && lit_.extent().longest_side() <= kRoom_m;
+}
+
+const ReflectionFinder* SceneReflection::finder(const IlluminanceOptions& options,
+                                                const LightMethod& method) {
+  if (!is_by_radiosity(options.bounces)) return nullptr;
+  direct_ = options;
+  direct_.bounces = 0;
+  direct_.share_reflected_m = 0.0;
+  method_ = method;
+  return &finder_;
+}
+
+void SceneReflection::solve(Progress& progress) {
+  MeshedScene meshed =
+      mesh_scene(lit_.scene(), lit_.soup(), {.tolerance_pct = direct_.tolerance_pct});
+  mesh_ = std::make_unique<ElementMesh>(std::move(meshed.mesh));
+  InteriorOptions how;
+  how.shot.seed = direct_.seed;
+  how.tolerance_pct = direct_.tolerance_pct;
+  how.lift_m = lit_.rays().lift_m();
+  interior_ = std::make_unique<Interior>(*mesh_, lit_.scene().materials, how);
+  const DaylightMethod daylight{lit_.engines(), lit_.source(), direct_, method_};
+  const bool is_day = lit_.source().unobstructed_lux() > 0.0;
+  light_ = interior_->light({is_day ? &daylight : nullptr, 1.0}, progress);
+  findings_ = std::move(meshed.findings);
+  findings_.insert(findings_.end(), light_->findings.begin(), light_->findings.end());
+}
+
+}  // namespace tenku
