@@ -13,19 +13,19 @@ namespace {
 constexpr std::size_t kBatch = 32;  // patch sides whose rows are found at once
 constexpr std::size_t kMostShots = 1'000'000, kMostShotsAPatch = 100;
 
+constexpr std::size_t kSettled = 16;    // batches between two exact sums
 constexpr double kMostUnshot = 0.0005;  // of what is emitted: a balance to 0.1 %
 
 class Refinement {
  public:
   Refinement(const ElementMesh& mesh, const SurfaceLight& surfaces, std::span<const Rgb> direct)
-      : mesh_(mesh), surfaces_(surfaces), direct_(direct), patch_of_(mesh.size()) {
+      : mesh_(mesh), surfaces_(surfaces), direct_(direct) {
     expects(direct.size() == mesh.sides(), "direct light is known on every side");
-    sides_.received.resize(mesh.sides());
-    sides_.unshot.resize(mesh.sides());
+    side_.resize(mesh.sides());
+    element_.resize(mesh.size());
     unshot_lm_.resize(2 * mesh.patches());
-    patch_area_.resize(mesh.patches());
     for (std::size_t p = 0; p < mesh.patches(); ++p) add_patch(p);
-    total_unshot_lm_ = std::accumulate(unshot_lm_.begin(), unshot_lm_.end(), 0.0);
+    settle();
   }
 
   std::vector<std::uint32_t> brightest() {
@@ -44,13 +44,14 @@ class Refinement {
     const Rgb flux = take_unshot(patch_side);
     double arrived = 0.0;
     for (const FormFactor& f : row) {
-      const std::size_t e = f.side / 2;
-      const Rgb lux = (f.value / surfaces_.area_m2[e]) * flux;
-      const Rgb sent = surfaces_.reflectance[e] * lux;
-      sides_.received[f.side] = sides_.received[f.side] + lux;
-      sides_.unshot[f.side] = sides_.unshot[f.side] + sent;
-      const double sent_lm = surfaces_.area_m2[e] * luminance_of(sent);
-      unshot_lm_[2 * patch_of_[e] + f.side % 2] += sent_lm;
+      const Receiver& element = element_[f.side / 2];
+      SideState& side = side_[f.side];
+      const Rgb lux = (f.value * element.per_m2) * flux;
+      const Rgb sent = element.reflectance * lux;
+      side.received = side.received + lux;
+      side.unshot = side.unshot + sent;
+      const double sent_lm = element.area_m2 * luminance_of(sent);
+      unshot_lm_[2 * element.patch + f.side % 2] += sent_lm;
       total_unshot_lm_ += sent_lm;
       arrived += f.value;
     }
@@ -69,14 +70,15 @@ class Refinement {
   }
   std::size_t shots() const { return shots_; }
 
-  const SideRadiosity& sides() {
-    sides_.radiosity.resize(mesh_.sides());
+  SideRadiosity sides() const {
+    SideRadiosity sides;
     for (std::size_t s = 0; s < mesh_.sides(); ++s) {
-      const std::size_t e = s / 2;
-      sides_.radiosity[s] = surfaces_.emission_lm_m2[e] +
-                            surfaces_.reflectance[e] * (direct_[s] + sides_.received[s]);
+      sides.received.push_back(side_[s].received);
+      sides.unshot.push_back(side_[s].unshot);
+      sides.radiosity.push_back(surfaces_.emission_lm_m2[s / 2] +
+                                surfaces_.reflectance[s / 2] * (direct_[s] + side_[s].received));
     }
-    return sides_;
+    return sides;
   }
 
   /// Unshot light, and all that it becomes, spread over both sides of everything.
@@ -85,7 +87,7 @@ class Refinement {
     double area = 0.0;
     for (std::size_t s = 0; s < mesh_.sides(); ++s) {
       const std::size_t e = s / 2;
-      flux = flux + surfaces_.area_m2[e] * sides_.unshot[s];
+      flux = flux + surfaces_.area_m2[e] * side_[s].unshot;
       weighted = weighted + surfaces_.area_m2[e] * surfaces_.reflectance[e];
       area += surfaces_.area_m2[e];
     }
@@ -100,31 +102,35 @@ class Refinement {
     for (std::size_t s = 0; s < mesh_.sides(); ++s) {
       const std::size_t e = s / 2;
       const double area = surfaces_.area_m2[e];
-      const Rgb rho = surfaces_.reflectance[e], lux = direct_[s] + sides_.received[s];
+      const Rgb rho = surfaces_.reflectance[e], lux = direct_[s] + side_[s].received;
       b.emitted_lm += area * luminance_of(surfaces_.emission_lm_m2[e] + direct_[s]);
       b.absorbed_lm += area * luminance_of(Rgb{1.0 - rho.r, 1.0 - rho.g, 1.0 - rho.b} * lux);
-      b.unshot_lm += area * luminance_of(sides_.unshot[s]);
+      b.unshot_lm += area * luminance_of(side_[s].unshot);
     }
     return b;
   }
 
-  SideRadiosity take_sides() {
-    sides();
-    return std::move(sides_);
-  }
-
  private:
+  /// What the inner loop needs of a side and of an element, side by side in memory.
+  struct SideState {
+    Rgb received, unshot;
+  };
+  struct Receiver {
+    Rgb reflectance;
+    double area_m2 = 0.0, per_m2 = 0.0;
+    std::size_t patch = 0;
+  };
+
   void add_patch(std::size_t patch) {
     for (std::size_t e = mesh_.patch_begin[patch]; e < mesh_.patch_begin[patch + 1]; ++e) {
-      patch_of_[e] = static_cast<std::uint32_t>(patch);
-      patch_area_[patch] += surfaces_.area_m2[e];
+      const double area = surfaces_.area_m2[e];
+      element_[e] = {surfaces_.reflectance[e], area, 1.0 / area, patch};
       for (const std::size_t face : {0U, 1U}) {
         const std::size_t s = 2 * e + face;
-        sides_.unshot[s] = surfaces_.emission_lm_m2[e] + surfaces_.reflectance[e] * direct_[s];
-        received_lm_ += surfaces_.area_m2[e] * luminance_of(direct_[s]);
-        emitted_lm_ +=
-            surfaces_.area_m2[e] * luminance_of(direct_[s] + surfaces_.emission_lm_m2[e]);
-        unshot_lm_[2 * patch + face] += surfaces_.area_m2[e] * luminance_of(sides_.unshot[s]);
+        side_[s].unshot = surfaces_.emission_lm_m2[e] + surfaces_.reflectance[e] * direct_[s];
+        received_lm_ += area * luminance_of(direct_[s]);
+        emitted_lm_ += area * luminance_of(direct_[s] + surfaces_.emission_lm_m2[e]);
+        unshot_lm_[2 * patch + face] += area * luminance_of(side_[s].unshot);
       }
     }
   }
@@ -133,7 +139,7 @@ class Refinement {
     Rgb flux;
     const std::size_t patch = patch_side / 2;
     for (std::size_t e = mesh_.patch_begin[patch]; e < mesh_.patch_begin[patch + 1]; ++e) {
-      Rgb& unshot = sides_.unshot[2 * e + patch_side % 2];
+      Rgb& unshot = side_[2 * e + patch_side % 2].unshot;
       flux = flux + surfaces_.area_m2[e] * unshot;
       unshot = {};
     }
@@ -145,9 +151,8 @@ class Refinement {
   const ElementMesh& mesh_;
   const SurfaceLight& surfaces_;
   std::span<const Rgb> direct_;
-  std::vector<std::uint32_t> patch_of_;
-  std::vector<double> patch_area_;
-  SideRadiosity sides_;
+  std::vector<SideState> side_;    ///< [element side]
+  std::vector<Receiver> element_;  ///< [element]
   std::vector<double> unshot_lm_;  ///< [patch side]
   std::vector<std::uint32_t> order_;
   double total_unshot_lm_ = 0.0, emitted_lm_ = 0.0, received_lm_ = 0.0, escaped_lm_ = 0.0;
@@ -166,8 +171,11 @@ RefinementResult refine_progressively(const ElementMesh& mesh, const SurfaceLigh
   progress.begin("shots of light", 0);
   std::size_t next_watch = 1;
   const auto show = [&] {
-    if (options.watch) options.watch({state.shots(), state.sides(), state.ambient()});
+    if (!options.watch) return;
+    const SideRadiosity sides = state.sides();
+    options.watch({state.shots(), sides, state.ambient()});
   };
+  std::size_t batches = 0;
   while (!state.is_within(options.tolerance) && state.shots() < most) {
     progress.stop_if_cancelled();
     std::vector<std::uint32_t> batch = state.brightest();
@@ -181,7 +189,7 @@ RefinementResult refine_progressively(const ElementMesh& mesh, const SurfaceLigh
         next_watch *= 2;
       }
     }
-    state.settle();
+    if (++batches % kSettled == 0 || state.is_within(options.tolerance)) state.settle();
     progress.advance(batch.size());
   }
   show();
@@ -190,7 +198,7 @@ RefinementResult refine_progressively(const ElementMesh& mesh, const SurfaceLigh
   result.left_lm = state.left_lm();
   result.is_converged = state.is_within(options.tolerance);
   result.balance = state.balance();
-  result.sides = state.take_sides();
+  result.sides = state.sides();
   progress.end(std::to_string(result.shots) + " shots");
   return result;
 }
