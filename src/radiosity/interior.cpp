@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "core/error.h"
 #include "core/stopwatch.h"
 #include "illuminance/error_budget.h"
 #include "illuminance/reflected_sharing.h"
@@ -17,7 +18,8 @@ namespace {
 constexpr double kShotShare = 0.1;   // of the tolerance: what shots may leave unshot
 constexpr double kSweepShare = 0.1;  // of the tolerance, in dim places: left by sweeps
 constexpr double kDimShare = 0.1;    // of the mean light: dimmer corners need not be exact
-constexpr double kUsualTolerance = 2.0;
+constexpr double kUsualTolerance = 2.0, kFinestTolerance = 0.5;  // percent
+constexpr int kFinestCorner = 128;
 constexpr double kRounding = 1e-5;  // of the sum of a row
 constexpr int kLampRays = 4096;     // to a lamp that a sensor sees in part
 
@@ -31,16 +33,32 @@ PointGatherOptions gather_options(const InteriorOptions& options, int resolution
   return gather;
 }
 
+/// Finer than this a mesh is not asked to be: its own error is greater.
+double mesh_tolerance_pct(const InteriorOptions& options) {
+  return std::max(options.tolerance_pct, kFinestTolerance);
+}
+
 /// The error of n strata falls as n^(-3/4), and n as the square of the resolution.
 int corner_resolution(const InteriorOptions& options) {
   if (options.point_resolution > 0) return options.point_resolution;
-  const double finer = std::pow(kUsualTolerance / options.tolerance_pct, 2.0 / 3.0);
+  const double finer = std::pow(kUsualTolerance / mesh_tolerance_pct(options), 2.0 / 3.0);
   return static_cast<int>(std::lround(std::clamp(24.0 * finer, 16.0, 128.0)));
+}
+
+PointGatherOptions corner_options(const InteriorOptions& options) {
+  PointGatherOptions corners = gather_options(options, corner_resolution(options));
+  corners.finest = kFinestCorner;
+  return corners;
 }
 
 SurfaceLight scaled(SurfaceLight surfaces, double lamp_scale) {
   for (Rgb& emission : surfaces.emission_lm_m2) emission = lamp_scale * emission;
   return surfaces;
+}
+
+/// What may still reach a point: nothing where surfaces in sight send nothing.
+double light_under_way(const CornerLight& corners, double received_lux) {
+  return received_lux > 0.0 ? corners.convergence_lux : 0.0;
 }
 
 /// Sensors that face one way have one number.
@@ -75,8 +93,13 @@ Interior::Interior(const ElementMesh& mesh, const std::vector<Material>& materia
       points_(side_points(mesh)),
       method_(form_factor_method(options.form_factors, mesh, options.shot)),
       rows_(mesh, *method_, {.lift_m = options.lift_m, .most_bytes = options.most_bytes / 2}),
-      gather_(mesh, points_.sensors, gather_options(options, corner_resolution(options))),
-      emitters_(mesh, points_, surfaces_, options.shot.seed) {}
+      gather_(mesh, points_.sensors, corner_options(options)),
+      emitters_(mesh, points_, surfaces_, options.shot.seed) {
+  if (!(options.tolerance_pct > 0.0 && options.tolerance_pct <= 100.0)) {
+    throw InputError("tolerance " + std::to_string(options.tolerance_pct) +
+                     " is not in (0, 100] percent");
+  }
+}
 
 const std::vector<std::uint8_t>& Interior::open_points(Progress& progress) {
   if (is_open_) return *is_open_;
@@ -99,7 +122,7 @@ RefinementResult Interior::shoot(const SurfaceLight& surfaces, const DaylightOnS
   std::vector<Rgb> on_sides;
   for (const double lux : direct.lux) on_sides.push_back(Rgb::grey(lux));
   RefinementOptions refinement;
-  refinement.tolerance = kShotShare * options_.tolerance_pct / 100.0;
+  refinement.tolerance = kShotShare * mesh_tolerance_pct(options_) / 100.0;
   refinement.most_shots = options_.most_shots;
   refinement.watch = options_.watch;
   const Stopwatch watch;
@@ -144,7 +167,10 @@ InteriorLight Interior::light(const LightRequest& request, Progress& progress) {
   if (request.daylight != nullptr) {
     const auto& is_open = open_points(progress);
     const Stopwatch watch;
-    direct = daylight_on_sides(mesh_, points_, is_open, *request.daylight, progress);
+    DaylightMethod daylight = *request.daylight;
+    daylight.options.tolerance_pct =
+        std::max(daylight.options.tolerance_pct, mesh_tolerance_pct(options_));
+    direct = daylight_on_sides(mesh_, points_, is_open, daylight, progress);
     times_.daylight_s += watch.seconds();
     light.findings.insert(light.findings.end(), direct.findings.begin(), direct.findings.end());
   }
@@ -162,7 +188,7 @@ InteriorLight Interior::light(const LightRequest& request, Progress& progress) {
                               lamps_on(light.is_lit),
                               request.lamp_scale,
                               direct,
-                              kSweepShare * options_.tolerance_pct};
+                              kSweepShare * mesh_tolerance_pct(options_)};
   CornerLight start;
   start.radiosity = light.shots.sides.radiosity;
   light.corners = solve_at_corners(problem, gather_, std::move(start), light.is_lit, progress);
@@ -179,7 +205,7 @@ InteriorLight Interior::light(const LightRequest& request, Progress& progress) {
     light.points.error_lux[i] =
         std::hypot(light.points.error_lux[i],
                    interval_lux(light.corners.variance[i], light.corners.mesh_lux[i])) +
-        light.corners.convergence_lux;
+        light_under_way(light.corners, luminance_of(light.corners.lux[i]));
   }
   times_.solve_s += sweeping.seconds();
   tell_refused(light.findings);
@@ -197,7 +223,7 @@ std::vector<std::uint8_t> Interior::rough_points(const InteriorLight& light) con
     sum += lux(i);
     lit += luminance_of(corners.lux[i]) > 0.0;
   }
-  const ErrorBudget budget(options_.tolerance_pct, kDimShare * sum / std::max(lit, 1.0));
+  const ErrorBudget budget(mesh_tolerance_pct(options_), kDimShare * sum / std::max(lit, 1.0));
   std::vector<std::uint8_t> rough(points_.size());
   for (std::size_t i = 0; i < points_.size(); ++i) {
     rough[i] = interval_lux(corners.variance[i], 0.0) > budget.allowed_lux(lux(i));
@@ -277,7 +303,7 @@ void Interior::add_reflected(InteriorSensors& sensors, const InteriorLight& ligh
     values.reflected_lux[i] = luminance_of(mean_of(looks[i]));
     values.error_lux[i] =
         std::hypot(values.error_lux[i], interval_lux(variance[i] + of_lamps, mesh_lux)) +
-        corners.convergence_lux;
+        light_under_way(corners, values.reflected_lux[i]);
   }
 }
 

@@ -78,7 +78,7 @@ struct InteriorSensors {
 class Interior {
  public:
   /// @param mesh, materials  kept by reference
-  /// @throws InputError as `form_factor_method`
+  /// @throws InputError as `form_factor_method`; a tolerance not in (0, 100] percent
   Interior(const ElementMesh& mesh, const std::vector<Material>& materials,
            const InteriorOptions& options);
 

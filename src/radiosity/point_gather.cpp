@@ -47,6 +47,7 @@ bool PointGather::look_finer(std::span<const std::uint8_t> is_wanted) {
   bool any = false;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (is_wanted[i] == 0 || level_[i] + 1U >= kLevels) continue;
+    if (options_.form_factors.resolution << (level_[i] + 1) > options_.finest) continue;
     Methods& finer = method_[++level_[i]];
     if (!finer[0]) finer = methods(mesh_, options_, level_[i]);
     for (std::size_t look = 0; look < kLooks; ++look) store_.forget(kLooks * i + look);

@@ -23,6 +23,7 @@ namespace tenku {
 struct PointGatherOptions {
   std::string method = "hemisphere-rays";
   FormFactorOptions form_factors;                  ///< of both looks together
+  int finest = 512;                                ///< resolution that points go on to at most
   double lift_m = 1e-5;                            ///< of points off their surface
   std::size_t most_bytes = std::size_t{1} << 30U;  ///< of the rows kept
 };

@@ -154,8 +154,8 @@ TEST(RadiosityCommand, RefusesWhatItCannotDo) {
   write_room(folder);
   for (const std::string wrong :
        {" --out room.png", " --out room.csv", " --out room.vtp --sensors in.pts",
-        " --out room.vtp --mesh cubic", " --out room.vtp --form-factors magic",
-        " --out nowhere/room.vtp"}) {
+        " --out room.vtp --mesh cubic", " --out room.vtp --tolerance 0",
+        " --out room.vtp --form-factors magic", " --out nowhere/room.vtp"}) {
     const auto run = run_tenku(kRoom + kOvercast + wrong, folder);
     EXPECT_EQ(run.exit_code, 2) << wrong << run.err;
   }
