@@ -39,7 +39,7 @@ struct IlluminanceOptions {
   };
   const KnownDirect* known_direct = nullptr;
   const ReflectionFinder* reflection = nullptr;  ///< in place of paths. Borrowed
-  bool by_slices = false;  ///< even where `source.elements` is given
+  bool by_slices = false;                        ///< even where `source.elements` is given
 };
 
 /// What came out, and what it took.
