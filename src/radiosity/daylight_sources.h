@@ -10,7 +10,7 @@
 #include "illuminance/daylight_source.h"
 #include "illuminance/planned_light.h"
 #include "illuminance/sensor.h"
-#include "radiosity/element_mesh.h"
+#include "meshing/element_mesh.h"
 #include "radiosity/side_points.h"
 #include "visibility/engines.h"
 

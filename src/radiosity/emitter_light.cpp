@@ -9,8 +9,8 @@
 #include <set>
 
 #include "core/random.h"
-#include "radiosity/contour_factor.h"
-#include "radiosity/mesh_soup.h"
+#include "form_factors/contour_factor.h"
+#include "meshing/mesh_soup.h"
 
 namespace tenku {
 namespace {

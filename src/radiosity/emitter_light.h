@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/rgb.h"
-#include "radiosity/element_mesh.h"
+#include "meshing/element_mesh.h"
 #include "radiosity/side_points.h"
 #include "radiosity/surface_light.h"
 #include "scene/triangle_soup.h"

@@ -15,7 +15,7 @@
 #include "illuminance/sensor.h"
 #include "radiosity/corner_solution.h"
 #include "radiosity/daylight_sources.h"
-#include "radiosity/element_mesh.h"
+#include "meshing/element_mesh.h"
 #include "radiosity/emitter_light.h"
 #include "radiosity/light_leaks.h"
 #include "radiosity/patch_rows.h"

@@ -12,7 +12,7 @@
 #include "core/extent.h"
 #include "core/parallel.h"
 #include "core/random.h"
-#include "radiosity/mesh_soup.h"
+#include "meshing/mesh_soup.h"
 #include "visibility/ray_visibility.h"
 
 namespace tenku {

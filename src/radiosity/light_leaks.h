@@ -7,7 +7,7 @@
 
 #include "core/finding.h"
 #include "illuminance/sensor.h"
-#include "radiosity/element_mesh.h"
+#include "meshing/element_mesh.h"
 
 namespace tenku {
 

@@ -13,10 +13,10 @@
 #include "core/progress.h"
 #include "core/rgb.h"
 #include "illuminance/sensor.h"
-#include "radiosity/element_mesh.h"
-#include "radiosity/form_factor.h"
-#include "radiosity/form_factor_store.h"
-#include "radiosity/outward_view.h"
+#include "meshing/element_mesh.h"
+#include "form_factors/form_factor.h"
+#include "form_factors/form_factor_store.h"
+#include "form_factors/outward_view.h"
 
 namespace tenku {
 

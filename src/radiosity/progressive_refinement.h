@@ -9,7 +9,7 @@
 
 #include "core/progress.h"
 #include "core/rgb.h"
-#include "radiosity/element_mesh.h"
+#include "meshing/element_mesh.h"
 #include "radiosity/patch_rows.h"
 #include "radiosity/surface_light.h"
 

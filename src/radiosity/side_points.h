@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "illuminance/sensor.h"
-#include "radiosity/element_mesh.h"
+#include "meshing/element_mesh.h"
 
 namespace tenku {
 

@@ -6,7 +6,7 @@
 
 #include "core/finding.h"
 #include "core/rgb.h"
-#include "radiosity/element_mesh.h"
+#include "meshing/element_mesh.h"
 #include "scene/material.h"
 
 namespace tenku {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "radiosity/mesh_surfaces.h"
+#include "meshing/mesh_surfaces.h"
 
 namespace tenku {
 namespace {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "radiosity/form_factor.h"
+#include "form_factors/form_factor.h"
 #include "support/generated_rooms.h"
 
 namespace tenku {

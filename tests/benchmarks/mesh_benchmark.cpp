@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "radiosity/mesh_surfaces.h"
+#include "meshing/mesh_surfaces.h"
 #include "scene/flatten.h"
 #include "scene/read_scene.h"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "radiosity/contour_factor.h"
+#include "form_factors/contour_factor.h"
 #include "radiosity/solver_scene.h"
 #include "support/measured.h"
 #include "support/reference_table.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "radiosity/element_mesh.h"
+#include "meshing/element_mesh.h"
 #include "radiosity/interior.h"
 #include "scene/material.h"
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "radiosity/element_mesh.h"
+#include "meshing/element_mesh.h"
 
 namespace tenku::testing_support {
 

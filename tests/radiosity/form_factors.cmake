@@ -1,1 +1,0 @@
-target_sources(test_radiosity PRIVATE form_factor_patch_test.cpp form_factor_reference_test.cpp)
