@@ -11,7 +11,7 @@
 #include "core/extent.h"
 #include "core/parallel.h"
 #include "meshing/flat_polygon.h"
-#include "meshing/patch_groups.h"
+#include "meshing/mesh_pieces.h"
 #include "meshing/polygon_mesh.h"
 #include "meshing/surface_checks.h"
 #include "meshing/surface_flaw.h"
@@ -24,12 +24,6 @@ constexpr double kCoarsening = 0.75, kFinest = 0.5, kCoarsest = 4.0;
 constexpr double kElementsUnasked = 50'000.0;
 constexpr double kPatchOfElement = 2.0;
 constexpr double kMostElements = 1e8;  // 10 GB with what belongs to them
-
-/// A polygon divided, and the number of elements of each of its patches.
-struct Piece {
-  PolygonMesh mesh;
-  std::vector<std::size_t> patches;
-};
 
 /// A mesh and what it was made of.
 struct Meshed {
@@ -131,25 +125,9 @@ bool covers(const PolygonMesh& mesh, const FlatPolygon& polygon, double weld_m) 
   return std::abs(area - polygon.area_m2) <= kRounding * polygon.area_m2 + weld_m * around;
 }
 
-Piece piece_of(const FlatPolygon& polygon, const MeshOptions& sizes,
-               const JoinTolerance& tolerance) {
-  Piece piece;
-  piece.mesh = divided(polygon, sizes.element_m, tolerance);
-  piece.patches = group_patches(polygon, piece.mesh, sizes.patch_m);
-  return piece;
-}
-
-void append(const FlatPolygon& polygon, const Piece& piece, ElementMesh& mesh) {
-  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-  mesh.vertices.insert(mesh.vertices.end(), piece.mesh.vertices.begin(), piece.mesh.vertices.end());
-  for (const auto& [a, b, c] : piece.mesh.elements) {
-    mesh.elements.push_back({first + a, first + b, first + c});
-  }
-  mesh.material.resize(mesh.size(), polygon.material);
-  mesh.object.resize(mesh.size(), polygon.object);
-  for (const std::size_t n : piece.patches) {
-    mesh.patch_begin.push_back(mesh.patch_begin.back() + static_cast<std::uint32_t>(n));
-  }
+MeshPiece piece_of(const FlatPolygon& polygon, const MeshOptions& sizes,
+                   const JoinTolerance& tolerance) {
+  return grouped_piece(polygon, divided(polygon, sizes.element_m, tolerance), sizes.patch_m);
 }
 
 class Mesher {
@@ -178,12 +156,9 @@ class Mesher {
  private:
   void divide() {
     split_overlapping();
-    made_.mesh = {};
-    made_.polygon_of.clear();
-    for (std::size_t i = 0; i < pieces_.size(); ++i) {
-      append(made_.surfaces.polygons[i], pieces_[i], made_.mesh);
-      made_.polygon_of.resize(made_.mesh.size(), static_cast<std::uint32_t>(i));
-    }
+    AssembledMesh all = assembled(made_.surfaces.polygons, pieces_);
+    made_.mesh = std::move(all.mesh);
+    made_.polygon_of = std::move(all.polygon_of);
   }
 
   void make_pieces(std::size_t begin) {
@@ -224,7 +199,7 @@ class Mesher {
   const TriangleSoup& soup_;
   double longest_ = 0.0;
   Meshed made_;
-  std::vector<Piece> pieces_;
+  std::vector<MeshPiece> pieces_;
 };
 
 Finding too_many(std::size_t allowed, std::size_t polygons, std::size_t elements) {
@@ -246,10 +221,11 @@ MeshedScene mesh_scene(const Scene& scene, const TriangleSoup& soup, const MeshO
   const auto more =
       check_surfaces(meshed.surfaces.polygons, meshed.mesh, meshed.polygon_of, meshed.tolerance);
   flaws.insert(flaws.end(), more.begin(), more.end());
-  MeshedScene made{std::move(meshed.mesh), meshed.sizes, findings_of(flaws, scene)};
+  MeshedScene made{std::move(meshed.mesh), meshed.sizes, findings_of(flaws, scene),
+                   std::move(meshed.surfaces.polygons), std::move(meshed.polygon_of)};
   if (options.elements_max > 0 && made.mesh.size() > options.elements_max) {
     made.findings.push_back(
-        too_many(options.elements_max, meshed.surfaces.polygons.size(), made.mesh.size()));
+        too_many(options.elements_max, made.polygons.size(), made.mesh.size()));
   }
   return made;
 }

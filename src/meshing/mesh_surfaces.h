@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "core/finding.h"
 #include "meshing/element_mesh.h"
+#include "meshing/flat_polygon.h"
 #include "scene/material.h"
 #include "scene/scene.h"
 #include "scene/triangle_soup.h"
@@ -27,6 +29,8 @@ struct MeshedScene {
   ElementMesh mesh;
   MeshOptions sizes;              ///< as chosen
   std::vector<Finding> findings;  ///< see surface_flaw.h, and `elements_max_passed`
+  std::vector<FlatPolygon> polygons;
+  std::vector<std::uint32_t> polygon_of;  ///< [element], in rising order
 };
 
 /// Divides all surfaces but glass.

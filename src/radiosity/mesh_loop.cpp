@@ -1,0 +1,243 @@
+#include "radiosity/mesh_loop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "core/error.h"
+#include "core/extent.h"
+#include "core/parallel.h"
+#include "core/stopwatch.h"
+#include "radiosity/sizes_by_error.h"
+
+namespace tenku {
+namespace {
+
+constexpr std::size_t kMostElements = 1'000'000;
+constexpr double kOtherSize = 1.4;       // times larger or smaller: another size
+constexpr double kOtherShare = 0.1;      // of a polygon's area
+constexpr double kLeastGain = 0.9;       // of the error before: a round that gains less is the last
+constexpr double kLargest = 0.25;        // of the scene's longest side: largest element unasked
+constexpr double kSmallest = 1.0 / 4096.0;
+
+double mean_edge(const ElementMesh& mesh, std::size_t e) {
+  double sum = 0.0;
+  for (unsigned k = 0; k < 3; ++k) {
+    sum += length(mesh.vertices[mesh.elements[e][(k + 1) % 3]] - mesh.vertices[mesh.elements[e][k]]);
+  }
+  return sum / 3.0;
+}
+
+}  // namespace
+
+Mesher mesher_named(std::string_view name) {
+  if (name == "uniform") return Mesher::Uniform;
+  if (name == "refine") return Mesher::Refine;
+  if (name == "bubble") return Mesher::Bubble;
+  throw InputError("there is no mesh named '" + std::string(name) +
+                   "'; there are: uniform, refine, bubble");
+}
+
+MeshLoop::MeshLoop(MeshedScene first, const std::vector<Material>& materials,
+                   InteriorOptions interior, MeshLoopOptions options)
+    : materials_(materials),
+      how_(std::move(interior)),
+      options_(std::move(options)),
+      polygons_(std::move(first.polygons)),
+      polygon_of_(std::move(first.polygon_of)),
+      patch_m_(first.sizes.patch_m),
+      mesh_(std::make_unique<ElementMesh>(std::move(first.mesh))) {
+  const auto [least, most] = options_.sizes;
+  if (options_.mesher == Mesher::Bubble && (least > 0.0) != (most > 0.0)) {
+    throw InputError("a bubble mesh takes both sizes by hand, or none");
+  }
+  if (least > 0.0 && most > 0.0 && !(least <= most)) {
+    throw InputError("the least size of elements is above the greatest");
+  }
+  if (options_.rounds < 0) throw InputError("rounds should be 0 or more");
+  if (!(options_.tolerance_pct > 0.0)) throw InputError("the tolerance should be positive");
+  if (!mesh_->vertices.empty()) longest_m_ = extent_of(mesh_->vertices).longest_side();
+}
+
+void MeshLoop::run(const LightRequest& request, Progress& progress) {
+  solve(request, progress);
+  rounds_.back().polygons_meshed = polygons_.size();
+  if (options_.mesher == Mesher::Uniform) return;
+  const bool is_once = options_.mesher == Mesher::Bubble && has_sizes_by_hand();
+  const int rounds = is_once ? std::min(1, options_.rounds) : options_.rounds;
+  for (int round = 0; round < rounds; ++round) {
+    progress.stop_if_cancelled();
+    if (!is_once && is_enough()) return;
+    if (!remesh()) return;
+    solve(request, progress);
+  }
+}
+
+void MeshLoop::solve(const LightRequest& request, Progress& progress) {
+  if (interior_) before_ = times();
+  interior_.reset();  // its form factors make room
+  interior_ = std::make_unique<Interior>(*mesh_, materials_, how_);
+  light_ = interior_->light(request, progress);
+  const LightOnMesh light = light_on_mesh(*mesh_, *interior_, light_);
+  const double mean = mean_lux(light);
+  if (rounds_.empty() || rounds_.back().elements > 0) rounds_.emplace_back();
+  rounds_.back().elements = mesh_->size();
+  rounds_.back().missed_pct =
+      mean > 0.0 ? 100.0 * interpolation_rms(light, interpolation_error(light)) / mean : 0.0;
+}
+
+bool MeshLoop::is_enough() const {
+  const MeshRound& last = rounds_.back();
+  if (last.missed_pct <= options_.tolerance_pct) return true;
+  return rounds_.size() > 2 &&
+         last.missed_pct > kLeastGain * rounds_[rounds_.size() - 2].missed_pct;
+}
+
+bool MeshLoop::remesh() {
+  const LightOnMesh light = light_on_mesh(*mesh_, *interior_, light_);
+  return options_.mesher == Mesher::Refine ? remesh_by_threshold(light) : remesh_by_bubbles(light);
+}
+
+void MeshLoop::take(std::vector<MeshPiece> pieces) {
+  AssembledMesh all = assembled(polygons_, pieces);
+  interior_.reset();
+  mesh_ = std::make_unique<ElementMesh>(std::move(all.mesh));
+  polygon_of_ = std::move(all.polygon_of);
+}
+
+bool MeshLoop::remesh_by_threshold(const LightOnMesh& light) {
+  const Stopwatch watch;
+  if (!refinement_) {
+    refinement_ = std::make_unique<ThresholdRefinement>(
+        polygons_, pieces_of(*mesh_, polygon_of_, polygons_.size()));
+  }
+  const double threshold_pct =
+      options_.threshold_pct > 0.0 ? options_.threshold_pct : options_.tolerance_pct;
+  const std::size_t most = options_.elements_max > 0 ? options_.elements_max : kMostElements;
+  const std::size_t before = mesh_->size();
+  auto pieces = refinement_->refined(neighbour_difference(light),
+                                     threshold_pct / 100.0 * mean_lux(light), most, patch_m_);
+  std::size_t after = 0;
+  for (const MeshPiece& piece : pieces) after += piece.mesh.elements.size();
+  if (after != before) {
+    before_ = times();
+    rounds_.emplace_back().polygons_meshed = polygons_.size();
+    take(std::move(pieces));
+  }
+  remesh_s_ += watch.seconds();
+  return after != before;
+}
+
+void MeshLoop::make_fields(std::span<const double> size_m, SizeRange range) {
+  std::vector<std::vector<SizeSample>> samples(polygons_.size());
+  std::vector<std::uint8_t> is_taken(mesh_->vertices.size());
+  for (std::size_t e = 0; e < mesh_->size(); ++e) {
+    for (const std::uint32_t v : mesh_->elements[e]) {
+      if (std::exchange(is_taken[v], 1) != 0) continue;
+      const std::uint32_t p = polygon_of_[e];
+      samples[p].push_back({polygons_[p].flat(mesh_->vertices[v]), size_m[v]});
+    }
+  }
+  std::vector<std::unique_ptr<SizeField>> made(polygons_.size());
+  parallel_for(made.size(), 1, [&](IndexRange part) {
+    for (std::size_t p = part.begin; p < part.end; ++p) {
+      made[p] = std::make_unique<SizeField>(
+          polygons_[p], samples[p],
+          SizeFieldOptions{.least_m = range.least_m, .most_m = range.most_m});
+    }
+  });
+  field_.clear();
+  for (auto& field : made) field_.push_back(std::move(*field));
+}
+
+std::vector<std::uint8_t> MeshLoop::polygons_to_mesh() const {
+  std::vector<double> other(polygons_.size()), all(polygons_.size());
+  for (std::size_t e = 0; e < mesh_->size(); ++e) {
+    const std::uint32_t p = polygon_of_[e];
+    const double area = mesh_->area_m2(e),
+                 ratio = mean_edge(*mesh_, e) / field_[p].at(polygons_[p].flat(mesh_->centre(e)));
+    all[p] += area;
+    if (ratio > kOtherSize || ratio < 1.0 / kOtherSize) other[p] += area;
+  }
+  std::vector<std::uint8_t> is_wanted(polygons_.size());
+  for (std::size_t p = 0; p < all.size(); ++p) is_wanted[p] = other[p] > kOtherShare * all[p];
+  return is_wanted;
+}
+
+BubbleMesh MeshLoop::bubbles(std::span<const std::uint8_t> is_wanted, double scale) const {
+  std::vector<PolygonMesh> kept(polygons_.size());
+  auto pieces = pieces_of(*mesh_, polygon_of_, polygons_.size());
+  for (std::size_t p = 0; p < kept.size(); ++p) {
+    if (is_wanted[p] == 0) kept[p] = std::move(pieces[p].mesh);
+  }
+  BubbleOptions options;
+  options.kept = kept;
+  return bubble_mesh(
+      polygons_, [&](std::size_t p, PlanePoint at) { return scale * field_[p].at(at); },
+      options_.constraints, options);
+}
+
+bool MeshLoop::remesh_by_bubbles(const LightOnMesh& light) {
+  const Stopwatch watch;
+  SizeRange range = options_.sizes;
+  std::vector<double> size_m;
+  if (has_sizes_by_hand()) {
+    size_m = sizes_by_change(light, range);
+  } else {
+    range = {kSmallest * longest_m_, kLargest * longest_m_};
+    const double allowed = options_.tolerance_pct / 100.0 * mean_lux(light);
+    size_m = sizes_by_error(light, interpolation_error(light),
+                            {allowed, options_.elements_max, range});
+  }
+  make_fields(size_m, range);
+  const std::vector<std::uint8_t> is_wanted = polygons_to_mesh();
+  const auto wanted = std::count(is_wanted.begin(), is_wanted.end(), 1);
+  size_field_s_ += watch.seconds();
+  if (wanted == 0) return false;
+  const Stopwatch meshing;
+  const std::size_t most = options_.elements_max > 0 ? options_.elements_max : kMostElements;
+  BubbleMesh made;
+  double scale = 1.0;
+  for (int attempt = 0; attempt < 4; ++attempt) {
+    made = bubbles(is_wanted, scale);
+    std::size_t count = 0;
+    for (const PolygonMesh& mesh : made.meshes) count += mesh.elements.size();
+    if (count <= most) break;
+    scale *= 1.02 * std::sqrt(static_cast<double>(count) / static_cast<double>(most));
+  }
+  auto pieces = pieces_of(*mesh_, polygon_of_, polygons_.size());
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    if (is_wanted[p] == 0 || made.meshes[p].elements.empty()) continue;
+    pieces[p] = grouped_piece(polygons_[p], std::move(made.meshes[p]), patch_m_);
+  }
+  before_ = times();
+  rounds_.emplace_back().polygons_meshed = static_cast<std::size_t>(wanted);
+  take(std::move(pieces));
+  remesh_s_ += meshing.seconds();
+  return true;
+}
+
+InteriorTimes MeshLoop::times() const {
+  InteriorTimes sum = before_;
+  if (interior_) {
+    sum.form_factors_s += interior_->times().form_factors_s;
+    sum.daylight_s += interior_->times().daylight_s;
+    sum.solve_s += interior_->times().solve_s;
+  }
+  return sum;
+}
+
+std::vector<double> MeshLoop::asked_size_m() const {
+  if (field_.empty()) return {};
+  std::vector<double> size(mesh_->vertices.size());
+  for (std::size_t e = 0; e < mesh_->size(); ++e) {
+    const std::uint32_t p = polygon_of_[e];
+    for (const std::uint32_t v : mesh_->elements[e]) {
+      size[v] = field_[p].at(polygons_[p].flat(mesh_->vertices[v]));
+    }
+  }
+  return size;
+}
+
+}  // namespace tenku

@@ -1,0 +1,114 @@
+/// Mesh, solution, better mesh, solution: until the mesh suits the light.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/finding.h"
+#include "core/progress.h"
+#include "meshing/bubble_mesh.h"
+#include "meshing/mesh_pieces.h"
+#include "meshing/mesh_surfaces.h"
+#include "meshing/size_field.h"
+#include "radiosity/interior.h"
+#include "radiosity/light_on_mesh.h"
+#include "radiosity/sizes_by_change.h"
+#include "radiosity/threshold_refinement.h"
+
+namespace tenku {
+
+/// `--mesh uniform|refine|bubble`.
+enum class Mesher { Uniform, Refine, Bubble };
+
+/// @throws InputError for any other name
+Mesher mesher_named(std::string_view name);
+
+/// What the mesh is to become.
+struct MeshLoopOptions {
+  Mesher mesher = Mesher::Uniform;
+  /// Root mean square of what interpolation on the mesh misses, percent of the mean illuminance.
+  double tolerance_pct = 2.0;
+  SizeRange sizes{0.0, 0.0};     ///< by hand, for bubbles: metres; 0 where it is not given
+  std::size_t elements_max = 0;  ///< 0: as many as the tolerance takes, below a million
+  double threshold_pct = 0.0;    ///< for `Refine`, of the mean illuminance; 0: the tolerance
+  int rounds = 3;                ///< meshes after the first, at most
+  /// [polygon] lines that edges of bubble meshes follow; or none at all.
+  std::vector<std::vector<ConstraintSegment>> constraints;
+};
+
+/// One mesh that was solved.
+struct MeshRound {
+  std::size_t elements = 0;
+  std::size_t polygons_meshed = 0;  ///< anew
+  double missed_pct = 0.0;          ///< root mean square, as in the options, as estimated
+};
+
+/// The calculation with the mesh that it has come to.
+///
+/// A polygon is meshed anew where a tenth of its area has elements of another size than the light
+/// asks for. With sizes by hand there is one round, as in the source; otherwise rounds go on until
+/// the tolerance holds or nothing is to be gained.
+///
+/// Source   for bubbles: T. Ito et al. (sizes_by_change.h); for `Refine`: threshold_refinement.h
+class MeshLoop {
+ public:
+  /// @param materials  kept by reference
+  /// @throws InputError  least above most size, no rounds, a tolerance that is not positive, sizes
+  ///                     by hand of which one is missing
+  MeshLoop(MeshedScene first, const std::vector<Material>& materials, InteriorOptions interior,
+           MeshLoopOptions options);
+
+  /// Solves, and meshes and solves again.
+  /// @throws Cancelled
+  void run(const LightRequest& request, Progress& progress);
+
+  const ElementMesh& mesh() const { return *mesh_; }
+  std::span<const FlatPolygon> polygons() const { return polygons_; }
+  std::span<const std::uint32_t> polygon_of() const { return polygon_of_; }  ///< [element]
+  Interior& interior() { return *interior_; }
+  const Interior& interior() const { return *interior_; }
+  /// Of the last round.
+  const InteriorLight& light() const { return light_; }
+  const std::vector<MeshRound>& rounds() const { return rounds_; }
+  /// Of all rounds.
+  InteriorTimes times() const;
+  double size_field_s() const { return size_field_s_; }
+  double remesh_s() const { return remesh_s_; }
+  /// Size that was asked for at each vertex, metres; empty where none was.
+  std::vector<double> asked_size_m() const;
+  const std::vector<Finding>& findings() const { return findings_; }
+
+ private:
+  void solve(const LightRequest& request, Progress& progress);
+  bool is_enough() const;
+  bool remesh();
+  bool remesh_by_threshold(const LightOnMesh& light);
+  bool remesh_by_bubbles(const LightOnMesh& light);
+  void make_fields(std::span<const double> size_m, SizeRange range);
+  std::vector<std::uint8_t> polygons_to_mesh() const;
+  BubbleMesh bubbles(std::span<const std::uint8_t> is_wanted, double scale) const;
+  void take(std::vector<MeshPiece> pieces);
+  bool has_sizes_by_hand() const { return options_.sizes.least_m > 0.0; }
+
+  const std::vector<Material>& materials_;
+  InteriorOptions how_;
+  MeshLoopOptions options_;
+  std::vector<FlatPolygon> polygons_;
+  std::vector<std::uint32_t> polygon_of_;
+  double patch_m_, longest_m_ = 0.0;
+  std::unique_ptr<ElementMesh> mesh_;
+  std::unique_ptr<Interior> interior_;
+  InteriorLight light_;
+  std::unique_ptr<ThresholdRefinement> refinement_;
+  std::vector<SizeField> field_;  ///< [polygon]
+  std::vector<MeshRound> rounds_;
+  std::vector<Finding> findings_;
+  InteriorTimes before_;  ///< of the rounds before this one
+  double size_field_s_ = 0.0, remesh_s_ = 0.0;
+};
+
+}  // namespace tenku
