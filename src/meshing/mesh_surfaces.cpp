@@ -224,8 +224,7 @@ MeshedScene mesh_scene(const Scene& scene, const TriangleSoup& soup, const MeshO
   MeshedScene made{std::move(meshed.mesh), meshed.sizes, findings_of(flaws, scene),
                    std::move(meshed.surfaces.polygons), std::move(meshed.polygon_of)};
   if (options.elements_max > 0 && made.mesh.size() > options.elements_max) {
-    made.findings.push_back(
-        too_many(options.elements_max, made.polygons.size(), made.mesh.size()));
+    made.findings.push_back(too_many(options.elements_max, made.polygons.size(), made.mesh.size()));
   }
   return made;
 }

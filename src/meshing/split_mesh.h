@@ -20,7 +20,8 @@ namespace tenku {
 /// finer neighbours is shown as two or three, which are one triangle again when it is asked to
 /// split: angles do not get worse from one time to the next.
 ///
-/// Source   R. E. Bank, A. H. Sherman and A. Weiser, "Some refinement algorithms and data structures
+/// Source   R. E. Bank, A. H. Sherman and A. Weiser, "Some refinement algorithms and data
+/// structures
 ///          for regular local mesh refinement", 1983.
 class SplitMesh {
  public:

@@ -15,16 +15,17 @@ namespace tenku {
 namespace {
 
 constexpr std::size_t kMostElements = 1'000'000;
-constexpr double kOtherSize = 1.4;       // times larger or smaller: another size
-constexpr double kOtherShare = 0.1;      // of a polygon's area
-constexpr double kLeastGain = 0.9;       // of the error before: a round that gains less is the last
-constexpr double kLargest = 0.25;        // of the scene's longest side: largest element unasked
+constexpr double kOtherSize = 1.4;   // times larger or smaller: another size
+constexpr double kOtherShare = 0.1;  // of a polygon's area
+constexpr double kLeastGain = 0.9;   // of the error before: a round that gains less is the last
+constexpr double kLargest = 0.25;    // of the scene's longest side: largest element unasked
 constexpr double kSmallest = 1.0 / 4096.0;
 
 double mean_edge(const ElementMesh& mesh, std::size_t e) {
   double sum = 0.0;
   for (unsigned k = 0; k < 3; ++k) {
-    sum += length(mesh.vertices[mesh.elements[e][(k + 1) % 3]] - mesh.vertices[mesh.elements[e][k]]);
+    sum +=
+        length(mesh.vertices[mesh.elements[e][(k + 1) % 3]] - mesh.vertices[mesh.elements[e][k]]);
   }
   return sum / 3.0;
 }
@@ -187,8 +188,8 @@ bool MeshLoop::remesh_by_bubbles(const LightOnMesh& light) {
   } else {
     range = {kSmallest * longest_m_, kLargest * longest_m_};
     const double allowed = options_.tolerance_pct / 100.0 * mean_lux(light);
-    size_m = sizes_by_error(light, interpolation_error(light),
-                            {allowed, options_.elements_max, range});
+    size_m =
+        sizes_by_error(light, interpolation_error(light), {allowed, options_.elements_max, range});
   }
   make_fields(size_m, range);
   const std::vector<std::uint8_t> is_wanted = polygons_to_mesh();

@@ -11,10 +11,10 @@
 namespace tenku {
 namespace {
 
-constexpr double kShape = 0.13;        // see the header
-constexpr double kFineShare = 0.25;    // of the present size: no less in one step
-constexpr double kCoarseShare = 8.0;   // nor more
-constexpr double kNoise = 1.5;         // standard deviations of the residual that are noise
+constexpr double kShape = 0.13;       // see the header
+constexpr double kFineShare = 0.25;   // of the present size: no less in one step
+constexpr double kCoarseShare = 8.0;  // nor more
+constexpr double kNoise = 1.5;        // standard deviations of the residual that are noise
 constexpr std::size_t kTerms = 6, kGrain = 64;
 
 using Terms = std::array<double, kTerms>;
@@ -137,7 +137,7 @@ double size_for(const InterpolationError& error, double share, const SizeRange& 
 
 /// What sizes for a share come to.
 struct Outlook {
-  double square = 0.0;    ///< error, lux^2 m^2
+  double square = 0.0;  ///< error, lux^2 m^2
   double elements = 0.0;
 };
 

@@ -11,9 +11,9 @@ namespace tenku {
 
 /// What linear interpolation between corners misses about a point.
 struct InterpolationError {
-  double lux = 0.0;    ///< root mean square over elements there, at their present size
-  double order = 2.0;  ///< falls as the size to this power: 2 where light is smooth, 0 at a jump
-  double size_m = 0.0; ///< present size: mean length of the edges
+  double lux = 0.0;     ///< root mean square over elements there, at their present size
+  double order = 2.0;   ///< falls as the size to this power: 2 where light is smooth, 0 at a jump
+  double size_m = 0.0;  ///< present size: mean length of the edges
 };
 
 /// From a parabola fitted to the light about each point, two edges far: what its second derivatives

@@ -93,7 +93,8 @@ std::vector<MeshPiece> ThresholdRefinement::refined(std::span<const double> diff
                                                     double patch_m) {
   constexpr double kStep = 1.1;
   std::vector<SplitMesh> made = split(difference, threshold_lux);
-  const double most = difference.empty() ? 0.0 : *std::max_element(difference.begin(), difference.end());
+  const double most =
+      difference.empty() ? 0.0 : *std::max_element(difference.begin(), difference.end());
   while (elements_max > 0 && elements_of(made) > elements_max && threshold_lux < most) {
     threshold_lux = std::max(kStep * threshold_lux, 1e-3 * most);
     made = split(difference, threshold_lux);
