@@ -9,11 +9,11 @@
 
 #include "cli/command.h"
 #include "cli/lit_scene_options.h"
+#include "cli/mesh_options.h"
 #include "cli/sky_rows.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/stopwatch.h"
-#include "meshing/mesh_surfaces.h"
 #include "output/field_writer.h"
 #include "output/sensor_file.h"
 #include "output/table_writer.h"
@@ -26,8 +26,8 @@ namespace {
 
 struct RadiosityCommandOptions {
   LitSceneOptions lit;
-  std::string form_factors = "hemisphere-rays", mesh = "uniform", sensors, watch, skies;
-  MeshOptions sizes;
+  RadiosityMeshOptions mesh;
+  std::string form_factors = "hemisphere-rays", sensors, watch, skies;
   std::optional<double> work_plane;
   double spacing_m = 0.5, memory_mb = 2048.0;
   int resolution = 32;
@@ -42,9 +42,7 @@ bool ends_with(const std::string& text, std::string_view ending) {
 }
 
 void check_request(const RadiosityCommandOptions& options) {
-  if (options.mesh != "uniform") {
-    throw InputError("there is no mesh named '" + options.mesh + "'; there is: uniform");
-  }
+  check_mesh_options(options.mesh);
   if (!options.sensors.empty() && options.work_plane) {
     throw InputError("give either --sensors or --work-plane");
   }
@@ -92,9 +90,7 @@ class RadiosityRun {
                   ? std::vector<SkyRow>{{options.lit.site, options.lit.sky, 1.0}}
                   : read_sky_rows(options.skies, options.lit.site, options.lit.sky)),
         lit_(load_lit_scene(as_in_first_row(options.lit, rows_), context.progress)),
-        mesh_(make_mesh()),
-        interior_(mesh_, lit_.scene().materials,
-                  with_watch(interior_options(options, lit_, context.options))) {}
+        loop_(make_mesh()) {}
 
   int finish() {
     if (options_.wants_sensors()) place_sensors();
@@ -110,17 +106,18 @@ class RadiosityRun {
     return lit;
   }
 
-  ElementMesh make_mesh() {
+  std::unique_ptr<MeshLoop> make_mesh() {
     const Stopwatch watch;
     context_.progress.begin("mesh", 0);
-    MeshOptions sizes = options_.sizes;
-    sizes.tolerance_pct = options_.lit.tolerance_pct;
-    MeshedScene meshed = mesh_scene(lit_.scene(), lit_.soup(), sizes);
-    context_.progress.end(std::to_string(meshed.mesh.size()) + " elements");
-    mesh_findings_ = std::move(meshed.findings);
+    const InteriorOptions how = with_watch(interior_options(options_, lit_, context_.options));
+    auto loop = make_mesh_loop(lit_, options_.mesh, how, mesh_findings_);
+    context_.progress.end(std::to_string(loop->mesh().size()) + " elements");
     mesh_s_ = watch.seconds();
-    return std::move(meshed.mesh);
+    return loop;
   }
+
+  const ElementMesh& mesh() const { return loop_->mesh(); }
+  Interior& interior() { return loop_->interior(); }
 
   InteriorOptions with_watch(InteriorOptions how) {
     if (options_.watch.empty()) return how;
@@ -128,7 +125,7 @@ class RadiosityRun {
     how.watch = [this](const ShotView& view) {
       const auto name = fmt::format("shots_{:07}.vtp", view.shots);
       write_vtp(std::filesystem::path(options_.watch) / name,
-                field_of_shots(lit_, mesh_, interior_.surfaces(), view));
+                field_of_shots(lit_, mesh(), interior().surfaces(), view));
     };
     return how;
   }
@@ -142,9 +139,20 @@ class RadiosityRun {
       in_file_ = read_sensor_file(options_.sensors);
       sensors_ = lit_.to_local(in_file_);
     }
+  }
+
+  /// The first light is what the mesh is made for.
+  InteriorLight light(const LightRequest& request) {
+    if (!runs_.empty()) return interior().light(request, context_.progress);
+    loop_->run(request, context_.progress);
+    if (!options_.mesh.report.empty()) {
+      write_mesh_report(lit_, options_.mesh, interior_options(options_, lit_, context_.options),
+                        *loop_, request, context_.progress);
+    }
     const Stopwatch watch;
-    look_ = interior_.look_from(sensors_);
+    if (options_.wants_sensors()) look_ = interior().look_from(sensors_);
     sensors_s_ += watch.seconds();
+    return loop_->light();
   }
 
   void solve(const SkyRow& row) {
@@ -161,14 +169,15 @@ class RadiosityRun {
     IlluminanceOptions how = illuminance_options(options_.lit, context_.options);
     how.bounces = 0;
     const DaylightMethod daylight{lit_.engines(), source, how, light_method(options_.lit)};
-    const double before = interior_.times().daylight_s;
+    const double before = loop_->times().daylight_s;
     const LightRequest request{run.open_lux > 0.0 ? &daylight : nullptr, row.lamp_scale};
-    run.light = interior_.light(request, context_.progress);
-    run.daylight_s = interior_.times().daylight_s - before;
+    run.light = light(request);
+    run.daylight_s = loop_->times().daylight_s - before;
     if (options_.wants_sensors()) {
       add_to_table(run, daylight);
     } else {
-      write_vtp(field_file(), field_of_radiosity(lit_, mesh_, interior_, run.light));
+      write_vtp(field_file(),
+                field_of_radiosity(lit_, mesh(), interior(), run.light, loop_->asked_size_m()));
     }
     run.light.findings.insert(run.light.findings.end(), sky.diagnostics.begin(),
                               sky.diagnostics.end());
@@ -191,7 +200,7 @@ class RadiosityRun {
                                             daylight.options, daylight.method, context_.progress);
       values = std::move(direct.values);
     }
-    interior_.add_reflected(look_, run.light, values, context_.progress);
+    interior().add_reflected(look_, run.light, values, context_.progress);
     sensors_s_ += watch.seconds();
     count_missed(values, run.open_lux);
     const bool has_factor = options_.work_plane.has_value();
@@ -227,7 +236,7 @@ class RadiosityRun {
   int close() const {
     std::vector<Finding> findings = lit_.scene().findings;
     findings.insert(findings.end(), mesh_findings_.begin(), mesh_findings_.end());
-    bool is_converged = true;
+    bool is_converged = is_fine_enough(*loop_, options_.mesh, options_.lit.tolerance_pct, findings);
     for (const LightRun& run : runs_) {
       findings.insert(findings.end(), run.light.findings.begin(), run.light.findings.end());
       is_converged &= run.light.shots.is_converged || options_.most_shots > 0;
@@ -237,7 +246,7 @@ class RadiosityRun {
     say(context_.options,
         fmt::format("{} patches, {} elements, {} shots; emitted {:.6g} lm, absorbed {:.6g}, "
                     "escaped {:.6g}, unshot {:.3g}",
-                    mesh_.patches(), mesh_.size(), runs_.front().light.shots.shots, b.emitted_lm,
+                    mesh().patches(), mesh().size(), runs_.front().light.shots.shots, b.emitted_lm,
                     b.absorbed_lm, b.escaped_lm, b.unshot_lm));
     if (context_.options.json) fmt::print("{}\n", summary().dump(2));
     return !is_converged || missed_ > 0 ? kToleranceNotReached : kDone;
@@ -259,21 +268,22 @@ class RadiosityRun {
   }
 
   nlohmann::ordered_json summary() const {
-    const InteriorTimes& times = interior_.times();
-    nlohmann::ordered_json json{{"patches", mesh_.patches()},
-                                {"elements", mesh_.size()},
-                                {"vertices", mesh_.vertices.size()},
+    const InteriorTimes times = loop_->times();
+    nlohmann::ordered_json json{{"patches", mesh().patches()},
+                                {"elements", mesh().size()},
+                                {"vertices", mesh().vertices.size()},
                                 {"seconds",
                                  {{"total_s", watch_.seconds()},
                                   {"mesh_s", mesh_s_},
                                   {"daylight_s", times.daylight_s},
                                   {"form_factors_s", times.form_factors_s},
                                   {"solve_s", times.solve_s},
-                                  {"size_field_s", 0.0},
-                                  {"remesh_s", 0.0},
+                                  {"size_field_s", loop_->size_field_s()},
+                                  {"remesh_s", loop_->remesh_s()},
                                   {"sensors_s", sensors_s_}}},
-                                {"form_factor_bytes", interior_.bytes()},
-                                {"out_of_tolerance", missed_}};
+                                {"form_factor_bytes", loop_->interior().bytes()},
+                                {"out_of_tolerance", missed_},
+                                {"rounds", json_of_rounds(*loop_)}};
     json.update(json_of_light(runs_.front()));
     if (options_.skies.empty()) return json;
     for (const LightRun& run : runs_) {
@@ -292,8 +302,7 @@ class RadiosityRun {
   LitScene lit_;
   double mesh_s_ = 0.0, sensors_s_ = 0.0;
   std::vector<Finding> mesh_findings_;
-  ElementMesh mesh_;
-  Interior interior_;
+  std::unique_ptr<MeshLoop> loop_;
   Sensors in_file_, sensors_;
   InteriorSensors look_;
   std::optional<CsvTable> table_;
@@ -309,11 +318,7 @@ void add_radiosity_options(CLI::App& app, RadiosityCommandOptions& o) {
                  "method of the form factors (default hemisphere-rays)");
   app.add_option("--resolution", o.resolution,
                  "of the form factors of a shot: lines or pixels across (default 32)");
-  app.add_option("--mesh", o.mesh, "how surfaces are divided: uniform");
-  app.add_option("--elements-max", o.sizes.elements_max, "elements not to be passed");
-  app.add_option("--size-min", o.sizes.element_min_m, "smallest size of an element, metres");
-  app.add_option("--size-max", o.sizes.element_m, "longest edge of an element, metres");
-  app.add_option("--patch-size", o.sizes.patch_m, "longest diagonal of a patch, metres");
+  add_mesh_options(app, o.mesh);
   app.add_option("--shots", o.most_shots, "stop after so many shots");
   app.add_option("--memory", o.memory_mb,
                  "MiB for form factors that are kept (default 2048); others are found again");

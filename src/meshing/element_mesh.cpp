@@ -18,6 +18,13 @@ Vec3 ElementMesh::centre(std::size_t element) const {
   return (1.0 / 3.0) * (vertices[a] + vertices[b] + vertices[c]);
 }
 
+double ElementMesh::mean_edge_m(std::size_t element) const {
+  const auto& [a, b, c] = elements[element];
+  return (length(vertices[b] - vertices[a]) + length(vertices[c] - vertices[b]) +
+          length(vertices[a] - vertices[c])) /
+         3.0;
+}
+
 Vec3 ElementMesh::normal(std::size_t side) const {
   const Vec3 front = normalized(doubled_area(side / 2));
   return side % 2 == 0 ? front : -front;

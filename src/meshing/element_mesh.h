@@ -36,6 +36,8 @@ struct ElementMesh {
   double area_m2(std::size_t element) const { return 0.5 * length(doubled_area(element)); }
   double patch_area_m2(std::size_t patch) const;
   Vec3 centre(std::size_t element) const;
+  /// Mean length of the edges of an element.
+  double mean_edge_m(std::size_t element) const;
   /// Unit normal of a side.
   Vec3 normal(std::size_t side) const;
 };

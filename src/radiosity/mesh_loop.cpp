@@ -9,6 +9,7 @@
 #include "core/extent.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
+#include "meshing/parted_mesh.h"
 #include "radiosity/sizes_by_error.h"
 
 namespace tenku {
@@ -20,15 +21,6 @@ constexpr double kOtherShare = 0.1;  // of a polygon's area
 constexpr double kLeastGain = 0.9;   // of the error before: a round that gains less is the last
 constexpr double kLargest = 0.25;    // of the scene's longest side: largest element unasked
 constexpr double kSmallest = 1.0 / 4096.0;
-
-double mean_edge(const ElementMesh& mesh, std::size_t e) {
-  double sum = 0.0;
-  for (unsigned k = 0; k < 3; ++k) {
-    sum +=
-        length(mesh.vertices[mesh.elements[e][(k + 1) % 3]] - mesh.vertices[mesh.elements[e][k]]);
-  }
-  return sum / 3.0;
-}
 
 }  // namespace
 
@@ -50,14 +42,16 @@ MeshLoop::MeshLoop(MeshedScene first, const std::vector<Material>& materials,
       patch_m_(first.sizes.patch_m),
       mesh_(std::make_unique<ElementMesh>(std::move(first.mesh))) {
   const auto [least, most] = options_.sizes;
-  if (options_.mesher == Mesher::Bubble && (least > 0.0) != (most > 0.0)) {
-    throw InputError("a bubble mesh takes both sizes by hand, or none");
-  }
   if (least > 0.0 && most > 0.0 && !(least <= most)) {
     throw InputError("the least size of elements is above the greatest");
   }
   if (options_.rounds < 0) throw InputError("rounds should be 0 or more");
   if (!(options_.tolerance_pct > 0.0)) throw InputError("the tolerance should be positive");
+  for (const ShadowEdges& edges : options_.edges) {
+    constraints_.push_back(edges.shadows);
+    constraints_.back().insert(constraints_.back().end(), edges.contacts.begin(),
+                               edges.contacts.end());
+  }
   if (!mesh_->vertices.empty()) longest_m_ = extent_of(mesh_->vertices).longest_side();
 }
 
@@ -157,7 +151,7 @@ std::vector<std::uint8_t> MeshLoop::polygons_to_mesh() const {
   for (std::size_t e = 0; e < mesh_->size(); ++e) {
     const std::uint32_t p = polygon_of_[e];
     const double area = mesh_->area_m2(e),
-                 ratio = mean_edge(*mesh_, e) / field_[p].at(polygons_[p].flat(mesh_->centre(e)));
+                 ratio = mesh_->mean_edge_m(e) / field_[p].at(polygons_[p].flat(mesh_->centre(e)));
     all[p] += area;
     if (ratio > kOtherSize || ratio < 1.0 / kOtherSize) other[p] += area;
   }
@@ -176,7 +170,7 @@ BubbleMesh MeshLoop::bubbles(std::span<const std::uint8_t> is_wanted, double sca
   options.kept = kept;
   return bubble_mesh(
       polygons_, [&](std::size_t p, PlanePoint at) { return scale * field_[p].at(at); },
-      options_.constraints, options);
+      constraints_, options);
 }
 
 bool MeshLoop::remesh_by_bubbles(const LightOnMesh& light) {
@@ -186,7 +180,8 @@ bool MeshLoop::remesh_by_bubbles(const LightOnMesh& light) {
   if (has_sizes_by_hand()) {
     size_m = sizes_by_change(light, range);
   } else {
-    range = {kSmallest * longest_m_, kLargest * longest_m_};
+    if (!(range.most_m > 0.0)) range.most_m = std::max(range.least_m, kLargest * longest_m_);
+    if (!(range.least_m > 0.0)) range.least_m = std::min(range.most_m, kSmallest * longest_m_);
     const double allowed = options_.tolerance_pct / 100.0 * mean_lux(light);
     size_m =
         sizes_by_error(light, interpolation_error(light), {allowed, options_.elements_max, range});
@@ -210,7 +205,11 @@ bool MeshLoop::remesh_by_bubbles(const LightOnMesh& light) {
   auto pieces = pieces_of(*mesh_, polygon_of_, polygons_.size());
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     if (is_wanted[p] == 0 || made.meshes[p].elements.empty()) continue;
-    pieces[p] = grouped_piece(polygons_[p], std::move(made.meshes[p]), patch_m_);
+    PolygonMesh mesh = std::move(made.meshes[p]);
+    if (!options_.edges.empty() && !options_.edges[p].contacts.empty()) {
+      mesh = parted_along(polygons_[p], std::move(mesh), options_.edges[p].contacts);
+    }
+    pieces[p] = grouped_piece(polygons_[p], std::move(mesh), patch_m_);
   }
   before_ = times();
   rounds_.emplace_back().polygons_meshed = static_cast<std::size_t>(wanted);

@@ -16,6 +16,7 @@
 #include "meshing/size_field.h"
 #include "radiosity/interior.h"
 #include "radiosity/light_on_mesh.h"
+#include "radiosity/shadow_edges.h"
 #include "radiosity/sizes_by_change.h"
 #include "radiosity/threshold_refinement.h"
 
@@ -32,12 +33,15 @@ struct MeshLoopOptions {
   Mesher mesher = Mesher::Uniform;
   /// Root mean square of what interpolation on the mesh misses, percent of the mean illuminance.
   double tolerance_pct = 2.0;
-  SizeRange sizes{0.0, 0.0};     ///< by hand, for bubbles: metres; 0 where it is not given
+  /// For bubbles, metres, 0 where it is not given. Both: by hand (`sizes_by_change`). One: bound of
+  /// the sizes that the tolerance gives.
+  SizeRange sizes{0.0, 0.0};
   std::size_t elements_max = 0;  ///< 0: as many as the tolerance takes, below a million
   double threshold_pct = 0.0;    ///< for `Refine`, of the mean illuminance; 0: the tolerance
   int rounds = 3;                ///< meshes after the first, at most
-  /// [polygon] lines that edges of bubble meshes follow; or none at all.
-  std::vector<std::vector<ConstraintSegment>> constraints;
+  /// [polygon] lines that edges of bubble meshes follow, and which part them where things touch; or
+  /// none at all.
+  std::vector<ShadowEdges> edges;
 };
 
 /// One mesh that was solved.
@@ -57,8 +61,7 @@ struct MeshRound {
 class MeshLoop {
  public:
   /// @param materials  kept by reference
-  /// @throws InputError  least above most size, no rounds, a tolerance that is not positive, sizes
-  ///                     by hand of which one is missing
+  /// @throws InputError  least above most size, no rounds, a tolerance that is not positive
   MeshLoop(MeshedScene first, const std::vector<Material>& materials, InteriorOptions interior,
            MeshLoopOptions options);
 
@@ -92,7 +95,9 @@ class MeshLoop {
   std::vector<std::uint8_t> polygons_to_mesh() const;
   BubbleMesh bubbles(std::span<const std::uint8_t> is_wanted, double scale) const;
   void take(std::vector<MeshPiece> pieces);
-  bool has_sizes_by_hand() const { return options_.sizes.least_m > 0.0; }
+  bool has_sizes_by_hand() const {
+    return options_.sizes.least_m > 0.0 && options_.sizes.most_m > 0.0;
+  }
 
   const std::vector<Material>& materials_;
   InteriorOptions how_;
@@ -104,7 +109,8 @@ class MeshLoop {
   std::unique_ptr<Interior> interior_;
   InteriorLight light_;
   std::unique_ptr<ThresholdRefinement> refinement_;
-  std::vector<SizeField> field_;  ///< [polygon]
+  std::vector<std::vector<ConstraintSegment>> constraints_;  ///< [polygon], or none
+  std::vector<SizeField> field_;                             ///< [polygon]
   std::vector<MeshRound> rounds_;
   std::vector<Finding> findings_;
   InteriorTimes before_;  ///< of the rounds before this one

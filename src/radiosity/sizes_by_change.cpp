@@ -8,12 +8,13 @@ namespace tenku {
 
 std::vector<double> change_per_metre(const LightOnMesh& light) {
   const PointNeighbours neighbours(light);
-  const std::vector<Vec3>& at = light.points.sensors.position;
+  const std::vector<std::uint32_t> vertex = vertices_of(light);
+  const auto at = [&](std::uint32_t i) { return light.mesh.vertices[vertex[i]]; };
   std::vector<double> change(light.points.size());
   for (std::uint32_t i = 0; i < change.size(); ++i) {
     const auto near = neighbours.of(i);
     for (const std::uint32_t k : near) {
-      change[i] += std::abs(light.lux[k] - light.lux[i]) / length(at[k] - at[i]) /
+      change[i] += std::abs(light.lux[k] - light.lux[i]) / length(at(k) - at(i)) /
                    static_cast<double>(near.size());
     }
   }

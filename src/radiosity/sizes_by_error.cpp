@@ -88,7 +88,7 @@ class PointFit {
       noise += light_.variance[k];
     }
     const auto count = static_cast<double>(about_.size());
-    const double off = std::max(0.0, square - kNoise * kNoise * noise) / count;
+    const double off = kOff * kOff * std::max(0.0, square - kNoise * kNoise * noise) / count;
     found.lux = std::sqrt(bent * bent + off);
     found.order = found.lux > 0.0 ? 2.0 * bent * bent / (bent * bent + off) : 2.0;
     return found;

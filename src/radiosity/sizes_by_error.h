@@ -16,10 +16,11 @@ struct InterpolationError {
   double size_m = 0.0;  ///< present size: mean length of the edges
 };
 
-/// From a parabola fitted to the light about each point, two edges far: what its second derivatives
-/// leave out in an equilateral triangle (0.13 of size^2 times their root mean square), and how far
-/// the values are from the parabola. What that is more than their noise does not get less by the
-/// square of the size, and does not at all at a jump: the order goes from 2 to 0 as it
+/// From a parabola fitted to the light about each point, two edges far: a tenth of size^2 times the
+/// root mean square of its second derivatives, which is what it leaves out in triangles of that
+/// size; and half of how far the values are from the parabola beyond their noise, for a jump
+/// lies within one element but shows in the fits about two on either side. The former falls with
+/// the square of the size, the latter does not fall at a jump: the order goes from 2 to 0 as it
 /// outweighs the former.
 ///
 /// Shape    [point]; nothing where no light comes.

@@ -8,6 +8,8 @@
 namespace tenku {
 namespace {
 
+constexpr std::size_t kFineness = 1000;  // steps of the threshold that are told apart
+
 using Triangle = std::array<std::uint32_t, 3>;
 
 /// An edge of an element, by its vertices.
@@ -88,16 +90,28 @@ std::vector<SplitMesh> ThresholdRefinement::split(std::span<const double> differ
   return made;
 }
 
+double ThresholdRefinement::enough_lux(std::span<const double> difference, double threshold_lux,
+                                       std::size_t elements_max) const {
+  std::vector<double> sorted(difference.begin(), difference.end());
+  sorted.push_back(threshold_lux);
+  std::sort(sorted.begin(), sorted.end());
+  // One of these splits too much, the last one nothing.
+  auto low = static_cast<std::size_t>(
+      std::lower_bound(sorted.begin(), sorted.end(), threshold_lux) - sorted.begin());
+  std::size_t high = sorted.size() - 1;
+  while (high - low > 1 + sorted.size() / kFineness) {
+    const std::size_t middle = low + (high - low) / 2;
+    (elements_of(split(difference, sorted[middle])) > elements_max ? low : high) = middle;
+  }
+  return sorted[high];
+}
+
 std::vector<MeshPiece> ThresholdRefinement::refined(std::span<const double> difference,
                                                     double threshold_lux, std::size_t elements_max,
                                                     double patch_m) {
-  constexpr double kStep = 1.1;
   std::vector<SplitMesh> made = split(difference, threshold_lux);
-  const double most =
-      difference.empty() ? 0.0 : *std::max_element(difference.begin(), difference.end());
-  while (elements_max > 0 && elements_of(made) > elements_max && threshold_lux < most) {
-    threshold_lux = std::max(kStep * threshold_lux, 1e-3 * most);
-    made = split(difference, threshold_lux);
+  if (elements_max > 0 && elements_of(made) > elements_max) {
+    made = split(difference, enough_lux(difference, threshold_lux, elements_max));
   }
   split_ = std::move(made);
   std::vector<MeshPiece> pieces;

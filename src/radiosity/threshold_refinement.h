@@ -39,6 +39,9 @@ class ThresholdRefinement {
 
  private:
   std::vector<SplitMesh> split(std::span<const double> difference, double threshold_lux) const;
+  /// A threshold that so many elements suffice for.
+  double enough_lux(std::span<const double> difference, double threshold_lux,
+                    std::size_t elements_max) const;
 
   std::span<const FlatPolygon> polygons_;
   std::vector<SplitMesh> split_;                   ///< [polygon]

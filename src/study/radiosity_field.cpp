@@ -86,9 +86,11 @@ class FieldPoints {
       const auto [found, is_new] = id_.emplace(key, static_cast<std::uint32_t>(point_.size()));
       ids[k] = found->second;
       if (!is_new) continue;
-      const Vec3 vertex = mesh_.vertices[mesh_.elements[side / 2][k]];
+      const std::uint32_t number = mesh_.elements[side / 2][k];
+      const Vec3 vertex = mesh_.vertices[number];
       field.points.push_back(vertex + lift_m * interior_.points().sensors.normal[point]);
       point_.push_back(point);
+      vertex_.push_back(number);
       const Rgb direct = Rgb::grey(light_.points.sun_lux[point] + light_.points.sky_lux[point]);
       radiosity_.push_back(interior_.surfaces().emission_lm_m2[side / 2] +
                            interior_.surfaces().reflectance[side / 2] *
@@ -97,7 +99,7 @@ class FieldPoints {
     field.add_polygon(facing(ids, side));
   }
 
-  void store(FieldMesh& field) const {
+  void store(FieldMesh& field, std::span<const double> asked_size_m) const {
     const auto add = [&](std::string name, const auto& value) {
       FieldValues values{std::move(name), {}};
       for (std::size_t i = 0; i < point_.size(); ++i) values.values.push_back(value(i));
@@ -115,6 +117,8 @@ class FieldPoints {
     add("radiosity_r_lm_m2", [&](std::size_t i) { return radiosity_[i].r; });
     add("radiosity_g_lm_m2", [&](std::size_t i) { return radiosity_[i].g; });
     add("radiosity_b_lm_m2", [&](std::size_t i) { return radiosity_[i].b; });
+    if (asked_size_m.empty()) return;
+    add("asked_size_m", [&](std::size_t i) { return asked_size_m[vertex_[i]]; });
   }
 
  private:
@@ -122,17 +126,18 @@ class FieldPoints {
   const Interior& interior_;
   const InteriorLight& light_;
   std::unordered_map<std::uint64_t, std::uint32_t> id_;
-  std::vector<std::uint32_t> point_;
+  std::vector<std::uint32_t> point_, vertex_;
   std::vector<Rgb> radiosity_;
 };
 
 }  // namespace
 
 FieldMesh field_of_radiosity(const LitScene& lit, const ElementMesh& mesh, const Interior& interior,
-                             const InteriorLight& light) {
+                             const InteriorLight& light, std::span<const double> asked_size_m) {
   FieldMesh field;
   FieldPoints points(mesh, interior, light);
-  FieldValues radiosity{"element_radiosity_lm_m2", {}}, unshot{"unshot_lm_m2", {}};
+  FieldValues radiosity{"element_radiosity_lm_m2", {}}, unshot{"unshot_lm_m2", {}},
+      size{"element_size_m", {}};
   FieldCodes patch{"patch", {}}, face{"side", {}};
   Codes types("surface_type"), objects("object_id"), materials("material");
   const SurfaceTypes known(lit.soup());
@@ -143,6 +148,7 @@ FieldMesh field_of_radiosity(const LitScene& lit, const ElementMesh& mesh, const
       points.add(field, s, lit.rays().lift_m());
       radiosity.values.push_back(luminance_of(light.corners.radiosity[s]));
       unshot.values.push_back(luminance_of(light.shots.sides.unshot[s]));
+      size.values.push_back(mesh.mean_edge_m(e));
       patch.codes.push_back(static_cast<std::int32_t>(p));
       face.codes.push_back(static_cast<std::int32_t>(s % 2));
       const SurfaceType type = known.of(mesh, e);
@@ -151,8 +157,8 @@ FieldMesh field_of_radiosity(const LitScene& lit, const ElementMesh& mesh, const
       materials.add(mesh.material[e], [&] { return lit.scene().materials[mesh.material[e]].name; });
     }
   }
-  points.store(field);
-  field.cell_values = {std::move(radiosity), std::move(unshot)};
+  points.store(field, asked_size_m);
+  field.cell_values = {std::move(radiosity), std::move(unshot), std::move(size)};
   field.cell_codes = {std::move(patch), std::move(face)};
   types.store(field);
   objects.store(field);

@@ -17,9 +17,10 @@ namespace tenku {
 /// `radiosity_r_lm_m2`, `radiosity_g_lm_m2`, `radiosity_b_lm_m2`. Values are continuous over each
 /// plane of one material. Cell arrays of the elements: `element_radiosity_lm_m2`, `unshot_lm_m2`
 /// (what the last shot left), `patch`, `side` (0 front, 1 back), `surface_type`, `object_id`,
-/// `material`. Texts as those of `field_of_grid`.
+/// `material`, `element_size_m` (mean length of its edges). Texts as those of `field_of_grid`.
+/// @param asked_size_m  [vertex], for the point array `asked_size_m`; empty: none
 FieldMesh field_of_radiosity(const LitScene& lit, const ElementMesh& mesh, const Interior& interior,
-                             const InteriorLight& light);
+                             const InteriorLight& light, std::span<const double> asked_size_m = {});
 
 /// Elements as the shots have left them, with the ambient light of what is unshot: cell arrays
 /// `radiosity_lm_m2`, `with_ambient_lm_m2`, `unshot_lm_m2`, `side`.

@@ -271,8 +271,12 @@ int measure(int argc, char** argv) {
   for (int k = 6; k < argc; ++k) {
     const auto part = parts_of(argv[k]);
     const double before = processor_s();
-    const auto loop = Solver{lit, tolerance_pct, 7}.run(
-        lit.mesh(std::strtoul(part.at(1).c_str(), nullptr, 10)), options_of(part));
+    MeshedScene first = lit.mesh(std::strtoul(part.at(1).c_str(), nullptr, 10));
+    MeshLoopOptions options = options_of(part);
+    if (part[0] == "shadow") {
+      options.edges = shadow_edges(first.polygons, lit.scene.materials, lit.engines->rays(), {});
+    }
+    const auto loop = Solver{lit, tolerance_pct, 7}.run(std::move(first), options);
     const double spent = processor_s() - before;
     const InteriorTimes times = loop->times();
     std::printf("%s,%zu,%.4f,%.4f,%.2f,%.3f,%.4f,%.4f\n", argv[k], loop->mesh().size(),
