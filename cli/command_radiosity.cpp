@@ -14,6 +14,7 @@
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/stopwatch.h"
+#include "meshing/mesh_surfaces.h"
 #include "output/field_writer.h"
 #include "output/sensor_file.h"
 #include "output/table_writer.h"
