@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -21,6 +22,34 @@ constexpr double kOtherShare = 0.1;  // of a polygon's area
 constexpr double kLeastGain = 0.9;   // of the error before: a round that gains less is the last
 constexpr double kLargest = 0.25;    // of the scene's longest side: largest element unasked
 constexpr double kSmallest = 1.0 / 4096.0;
+
+/// What bubbles could not do, by kind.
+std::vector<Finding> findings_of(const std::vector<BubbleFlaw>& flaws) {
+  std::map<BubbleFlaw::Kind, std::pair<std::size_t, double>> kinds;
+  for (const BubbleFlaw& flaw : flaws) {
+    ++kinds[flaw.kind].first;
+    kinds[flaw.kind].second += flaw.length_m;
+  }
+  std::vector<Finding> findings;
+  for (const auto& [kind, sum] : kinds) {
+    Finding finding;
+    finding.count = sum.first;
+    if (kind == BubbleFlaw::Kind::Constraints) {
+      finding.code = "shadow_edges_left_out";
+      finding.severity = Severity::Note;
+      finding.what = std::to_string(sum.second) + " m of shadow edges run too near to others";
+      finding.repair = "elements do not follow them; a smaller --size-min";
+    } else {
+      finding.code = "polygons_not_meshed_anew";
+      finding.what =
+          std::to_string(sum.first) +
+          " polygons could not be meshed to suit the light: " + std::string(name_of(kind));
+      finding.repair = "they keep the elements of the mesh before";
+    }
+    findings.push_back(std::move(finding));
+  }
+  return findings;
+}
 
 }  // namespace
 
@@ -202,6 +231,7 @@ bool MeshLoop::remesh_by_bubbles(const LightOnMesh& light) {
     if (count <= most) break;
     scale *= 1.02 * std::sqrt(static_cast<double>(count) / static_cast<double>(most));
   }
+  findings_ = findings_of(made.flaws);
   auto pieces = pieces_of(*mesh_, polygon_of_, polygons_.size());
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     if (is_wanted[p] == 0 || made.meshes[p].elements.empty()) continue;

@@ -83,6 +83,7 @@ class MeshLoop {
   double remesh_s() const { return remesh_s_; }
   /// Size that was asked for at each vertex, metres; empty where none was.
   std::vector<double> asked_size_m() const;
+  /// Of the last meshing: `polygons_not_meshed_anew`, `shadow_edges_left_out`.
   const std::vector<Finding>& findings() const { return findings_; }
 
  private:

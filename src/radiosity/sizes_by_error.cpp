@@ -11,7 +11,8 @@
 namespace tenku {
 namespace {
 
-constexpr double kShape = 0.13;       // see the header
+constexpr double kShape = 0.1;        // see the header
+constexpr double kOff = 0.5;          // see the header
 constexpr double kFineShare = 0.25;   // of the present size: no less in one step
 constexpr double kCoarseShare = 8.0;  // nor more
 constexpr double kNoise = 1.5;        // standard deviations of the residual that are noise
