@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/random.h"
 #include "meshing/flat_polygon.h"
 
 namespace tenku {
@@ -20,8 +19,13 @@ namespace tenku {
 ///          sizes that differ much.
 class BubbleGrid {
  public:
-  explicit BubbleGrid(std::size_t expected)
-      : first_(std::bit_ceil(std::max<std::size_t>(2 * expected, 64)), kEnd) {
+  static constexpr double kAnyRatio = 1e6;
+
+  /// @param most_ratio  of sizes: bubbles that are so many times larger or smaller than what they
+  ///                    are asked near to need not be found
+  explicit BubbleGrid(std::size_t expected, double most_ratio = kAnyRatio)
+      : first_(std::bit_ceil(std::max<std::size_t>(2 * expected, 64)), kEnd),
+        most_ratio_(most_ratio) {
     entries_.reserve(expected);
   }
 
@@ -29,8 +33,8 @@ class BubbleGrid {
     const int level = level_of(size_m);
     lowest_ = entries_.empty() ? level : std::min(lowest_, level);
     highest_ = entries_.empty() ? level : std::max(highest_, level);
-    const double width = width_of(level);
-    Entry entry{coordinate(at.x / width), coordinate(at.y / width), level, id, kEnd};
+    const double per_m = 1.0 / width_of(level);
+    Entry entry{coordinate(at.x * per_m), coordinate(at.y * per_m), level, id, kEnd};
     std::uint32_t& first = first_[bucket(entry.x, entry.y, level)];
     entry.next = first;
     first = static_cast<std::uint32_t>(entries_.size());
@@ -38,17 +42,14 @@ class BubbleGrid {
   }
 
   /// Calls `visit(id)` for bubbles whose centre may be nearer to `p` than `reach` times the mean of
-  /// `size_m` and their size: no fewer, but of those less than half of `size_m` only some.
+  /// `size_m` and their size: for no fewer.
   template <class Visit>
   void for_each_near(PlanePoint p, double size_m, double reach, const Visit& visit) const {
-    for (int level = std::max(lowest_, level_of(size_m) - 1); level <= highest_; ++level) {
-      const double width = width_of(level), far = 0.5 * reach * (size_m + width);
-      const auto x1 = coordinate((p.x + far) / width), y1 = coordinate((p.y + far) / width);
-      for (auto y = coordinate((p.y - far) / width); y <= y1; ++y) {
-        for (auto x = coordinate((p.x - far) / width); x <= x1; ++x) {
-          visit_cell(x, y, level, visit);
-        }
-      }
+    const double largest = most_ratio_ * size_m;
+    const int finest = std::max(lowest_, level_of(size_m / most_ratio_));
+    const int coarsest = std::min(highest_, level_of(largest));
+    for (int level = finest; level <= coarsest; ++level) {
+      visit_box(p, 0.5 * reach * (size_m + std::min(width_of(level), largest)), level, visit);
     }
   }
 
@@ -56,13 +57,7 @@ class BubbleGrid {
   template <class Visit>
   void for_each_about(PlanePoint p, const Visit& visit) const {
     for (int level = lowest_; level <= highest_; ++level) {
-      const double width = width_of(level), far = 0.5 * width;
-      const auto x1 = coordinate((p.x + far) / width), y1 = coordinate((p.y + far) / width);
-      for (auto y = coordinate((p.y - far) / width); y <= y1; ++y) {
-        for (auto x = coordinate((p.x - far) / width); x <= x1; ++x) {
-          visit_cell(x, y, level, visit);
-        }
-      }
+      visit_box(p, 0.5 * width_of(level), level, visit);
     }
   }
 
@@ -81,7 +76,15 @@ class BubbleGrid {
     const auto key = static_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15U +
                      static_cast<std::uint64_t>(y) * 0xc2b2ae3d27d4eb4fU +
                      static_cast<std::uint64_t>(level + 4096);
-    return mix_bits(key) & (first_.size() - 1);
+    return (key ^ (key >> 29U)) & (first_.size() - 1);
+  }
+  template <class Visit>
+  void visit_box(PlanePoint p, double far, int level, const Visit& visit) const {
+    const double per_m = 1.0 / width_of(level);
+    const auto x1 = coordinate((p.x + far) * per_m), y1 = coordinate((p.y + far) * per_m);
+    for (auto y = coordinate((p.y - far) * per_m); y <= y1; ++y) {
+      for (auto x = coordinate((p.x - far) * per_m); x <= x1; ++x) visit_cell(x, y, level, visit);
+    }
   }
   template <class Visit>
   void visit_cell(std::int64_t x, std::int64_t y, int level, const Visit& visit) const {
@@ -93,7 +96,8 @@ class BubbleGrid {
 
   std::vector<std::uint32_t> first_;  ///< [bucket]
   std::vector<Entry> entries_;
-  int lowest_ = 0, highest_ = -1;
+  double most_ratio_;
+  int lowest_ = 0, highest_ = -1;  ///< levels
 };
 
 }  // namespace tenku

@@ -19,8 +19,9 @@
 namespace tenku {
 namespace {
 
-constexpr std::size_t kRounds = 3;      // of motion and of taking bubbles out and putting them in
-constexpr std::size_t kLaterSteps = 4;  // a later round has so many times fewer steps
+// Of motion, and between them of taking bubbles out and putting others in; then of the latter
+// alone.
+constexpr std::size_t kRounds = 3, kRepairs = 4;
 
 /// Fills one polygon whose edges are filled.
 class FaceMesher {
@@ -44,8 +45,7 @@ class FaceMesher {
     }
     BubblePlacer(face_, expected()).fill(options_.vertices_most);
     if (face_.at.size() >= options_.vertices_most) return BubbleFlaw::Kind::TooMany;
-    settle();
-    const auto mesh = triangulate(face_);
+    const auto mesh = settled();
     if (!mesh) return BubbleFlaw::Kind::RingsCross;
     make_mesh(*mesh);
     quality_ = mesh_quality(polygon_, made_, wanted);
@@ -118,14 +118,17 @@ class FaceMesher {
                                  inner, 0.0, 1e-2 * static_cast<double>(options_.vertices_most)));
   }
 
-  void settle() {
-    std::size_t steps = options_.steps_most;
-    for (std::size_t round = 0; round < kRounds && steps > 0; ++round) {
-      steps_ += move_bubbles(face_, steps, options_.motion);
-      steps /= kLaterSteps;
-      const auto mesh = triangulate(face_);
-      if (!mesh || correct_population(face_, *mesh) == 0) return;
+  /// Triangles between the bubbles when they have come to rest.
+  std::optional<BubbleTriangles> settled() {
+    std::optional<BubbleTriangles> mesh;
+    for (std::size_t round = 0; round < kRounds + kRepairs; ++round) {
+      if (round < kRounds) {
+        steps_ += move_bubbles(face_, options_.steps_most / kRounds, options_.motion);
+      }
+      mesh = triangulate(face_);
+      if (!mesh || correct_population(face_, *mesh) == 0) return mesh;
     }
+    return triangulate(face_);
   }
 
   void make_mesh(const BubbleTriangles& mesh) {

@@ -13,13 +13,15 @@ namespace {
 // Of the motion, per step, with mass, damping and stiffness in one: what is left of the velocity,
 // and what a force of 1 adds to it. Six neighbours at rest pull back with a stiffness of 3, and up
 // to 6 where they move against one another: well below what oscillates.
-constexpr double kKept = 0.5, kGained = 0.16;
+constexpr double kKept = 0.6, kGained = 0.2;
 constexpr double kLongestStep = 0.15;  // in sizes
 constexpr double kReach = 1.5;         // of the force, in mean sizes
+constexpr double kNearlyAll = 1.0;     // times the mean, a way that only some exceed
 constexpr double kSkin = 0.3;          // that neighbours may come nearer before they are looked up
-constexpr std::size_t kLookUp = 6;     // steps between
 // Nearer to a piece than this a bubble is pushed away, in sizes.
 constexpr double kFromPiece = 0.8;
+// Of the sizes of neighbours; where a size jumps by more, few forces are missed.
+constexpr double kMostRatio = 1.5;
 constexpr std::size_t kGrain = 256;
 
 /// Lists of different lengths, one after the other.
@@ -42,9 +44,13 @@ class Motion {
         next_(moving_) {}
 
   std::size_t run(std::size_t steps_most, double motion) {
+    double moved = kSkin;  // by nearly all at most, since neighbours were looked up
     for (std::size_t step = 0; step < steps_most; ++step) {
-      if (step % kLookUp == 0) look_up();
-      if (mean_step() <= motion) return step + 1;
+      // Two may come nearer by twice that.
+      if (2.0 * moved >= kSkin) look_up(), moved = 0.0;
+      const double mean = move_all();
+      if (mean <= motion) return step + 1;
+      moved += kNearlyAll * mean;
     }
     return steps_most;
   }
@@ -64,7 +70,7 @@ class Motion {
   }
 
   BubbleGrid all() const {
-    BubbleGrid grid(face_.at.size());
+    BubbleGrid grid(face_.at.size(), kMostRatio);
     for (std::uint32_t i = 0; i < face_.at.size(); ++i)
       grid.insert(i, face_.at[i], face_.size_m[i]);
     return grid;
@@ -92,14 +98,15 @@ class Motion {
   }
 
   /// Moves all by one step.
-  double mean_step() {
-    const double sum = parallel_sum(moving_, kGrain, [&](IndexRange range) {
-      double squares = 0.0;
+  /// @return  root mean square of the way, in sizes
+  double move_all() {
+    const double squares = parallel_sum(moving_, kGrain, [&](IndexRange range) {
+      double sum = 0.0;
       for (std::size_t i = range.begin; i < range.end; ++i) {
         const double step = move(i);
-        squares += step * step;
+        sum += step * step;
       }
-      return squares;
+      return sum;
     });
     parallel_for(moving_, kGrain, [&](IndexRange range) {
       for (std::size_t i = range.begin; i < range.end; ++i) {
@@ -108,7 +115,7 @@ class Motion {
         if (size > 0.0) face_.size_m[face_.fixed + i] = size;
       }
     });
-    return moving_ == 0 ? 0.0 : std::sqrt(sum / static_cast<double>(moving_));
+    return std::sqrt(squares / static_cast<double>(moving_));
   }
 
   /// @return  how far it goes, in sizes
@@ -118,7 +125,7 @@ class Motion {
     const PlanePoint force = force_on(i, p, size);
     PlanePoint& v = velocity_[i];
     v = {kKept * v.x + kGained * force.x, kKept * v.y + kGained * force.y};
-    const double speed = std::hypot(v.x, v.y);
+    const double speed = std::sqrt(v.x * v.x + v.y * v.y);
     if (speed > kLongestStep) v = {kLongestStep / speed * v.x, kLongestStep / speed * v.y};
     next_[i] = {p.x + size * v.x, p.y + size * v.y};
     for (const std::uint32_t k : near_pieces_[i / kGrain][i % kGrain]) {
@@ -132,14 +139,14 @@ class Motion {
 
   PlanePoint force_on(std::size_t i, PlanePoint p, double size) const {
     PlanePoint force;
-    const auto add = [&](PlanePoint from, double stable, double share) {
-      const double dx = p.x - from.x, dy = p.y - from.y, apart = std::sqrt(dx * dx + dy * dy);
-      if (!(apart > 0.0)) return;
-      const double f = share * bubble_force(apart / stable) / apart;
+    const auto add = [&](PlanePoint from, double stable) {
+      const double dx = p.x - from.x, dy = p.y - from.y, square = dx * dx + dy * dy;
+      if (!(square > 0.0) || square >= kReach * kReach * stable * stable) return;
+      const double apart = std::sqrt(square), f = bubble_force(apart / stable) / apart;
       force = {force.x + f * dx, force.y + f * dy};
     };
     for (const std::uint32_t j : near_[i / kGrain][i % kGrain]) {
-      add(face_.at[j], 0.5 * (size + face_.size_m[j]), 1.0);
+      add(face_.at[j], 0.5 * (size + face_.size_m[j]));
     }
     for (const std::uint32_t k : near_pieces_[i / kGrain][i % kGrain]) {
       const PlanePoint a = face_.at[face_.pieces[k].a], b = face_.at[face_.pieces[k].b];

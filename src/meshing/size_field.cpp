@@ -14,7 +14,7 @@
 namespace tenku {
 namespace {
 
-constexpr double kLeastNodes = 64.0, kMostNodes = 16'384.0, kNodesPerSample = 2.0;
+constexpr double kLeastNodes = 64.0, kMostNodes = 4096.0, kNodesPerSample = 0.5;
 // Of the samples against the bending of one node.
 constexpr double kStiffness = 1e3;
 // Of the slope, which makes the answer unique where the samples are fewer than three or on a line.

@@ -34,14 +34,13 @@ struct SizeFieldOptions {
 /// and from each sample: a small size is never averaged away. Between the bounds and those of the
 /// samples.
 ///
-/// The grid is as wide as the least size of a sample, with no more nodes than twice the samples,
-/// since they know no more than that, and from 64 to 16,384. Where all samples are equal there is
-/// no grid.
+/// The spacing of the grid is the least size of a sample, or more: there are no more nodes than
+/// half the samples, but for 64, and than 4,096. Where all samples are equal there is no grid.
 ///
 /// Frame    the plane of the polygon, as `FlatPolygon::flat`.
 /// Units    metres.
 /// Threads  immutable after construction; may be shared.
-/// Cost     a sparse factorisation: 4 us per node of 4,096 nodes; 10 ns per question.
+/// Cost     a sparse factorisation: 5 to 10 us per node; 10 ns per question.
 class SizeField {
  public:
   /// @param samples  on the polygon; without any the size is `most_m`
