@@ -13,7 +13,6 @@ namespace tenku {
 namespace {
 
 constexpr std::size_t kMostSweeps = 100, kGrain = 16;
-constexpr int kLampRays = 64;       // to a lamp that a corner sees in part
 constexpr double kDarkShare = 0.3;  // of the brightest corner: less is inside of something
 constexpr double kNear = 0.3, kWideView = 0.03, kDoubt = 0.05, kCurved = 0.4;
 
@@ -194,7 +193,7 @@ class LampsInSight {
 LampsOnMesh lamps_on_mesh(const ElementMesh& mesh, const SurfaceLight& surfaces,
                           const SidePoints& points, const EmitterLight& lamps,
                           const PointGather& gather, std::span<const std::uint8_t> is_lit,
-                          double lift_m) {
+                          double lift_m, int rays) {
   LampsOnMesh found;
   found.corner.resize(points.size());
   found.left_to_rows.resize(points.size());
@@ -204,7 +203,7 @@ LampsOnMesh lamps_on_mesh(const ElementMesh& mesh, const SurfaceLight& surfaces,
   if (lamps.is_any()) {
     const LampsInSight in_sight(points, lamps, gather, is_lit);
     const auto light_at = [&](Vec3 position, Vec3 normal, std::uint32_t plane) {
-      return lamps.at(position + lift_m * normal, normal, kLampRays, in_sight.of_plane(plane));
+      return lamps.at(position + lift_m * normal, normal, rays, in_sight.of_plane(plane));
     };
     parallel_for(points.size(), kGrain, [&](IndexRange range) {
       for (std::size_t i = range.begin; i < range.end; ++i) {

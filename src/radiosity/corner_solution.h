@@ -25,10 +25,11 @@ struct LampsOnMesh {
 };
 
 /// @param is_lit  [point]: others have no light
+/// @param rays    at most, to a lamp that a point sees in part
 LampsOnMesh lamps_on_mesh(const ElementMesh& mesh, const SurfaceLight& surfaces,
                           const SidePoints& points, const EmitterLight& lamps,
                           const PointGather& gather, std::span<const std::uint8_t> is_lit,
-                          double lift_m);
+                          double lift_m, int rays);
 
 /// What never changes while corners gather: borrowed.
 struct CornerProblem {

@@ -20,8 +20,9 @@ constexpr double kSweepShare = 0.1;  // of the tolerance, in dim places: left by
 constexpr double kDimShare = 0.1;    // of the mean light: dimmer corners need not be exact
 constexpr double kUsualTolerance = 2.0, kFinestTolerance = 0.5;  // percent
 constexpr int kFinestCorner = 128;
-constexpr double kRounding = 1e-5;  // of the sum of a row
-constexpr int kLampRays = 4096;     // to a lamp that a sensor sees in part
+constexpr double kRounding = 1e-5;   // of the sum of a row
+constexpr int kLampRays = 4096;      // to a lamp that a sensor sees in part
+constexpr int kCornerLampRays = 64;  // to one that a corner does, at the usual tolerance
 
 PointGatherOptions gather_options(const InteriorOptions& options, int resolution) {
   PointGatherOptions gather;
@@ -43,6 +44,12 @@ int corner_resolution(const InteriorOptions& options) {
   if (options.point_resolution > 0) return options.point_resolution;
   const double finer = std::pow(kUsualTolerance / mesh_tolerance_pct(options), 2.0 / 3.0);
   return static_cast<int>(std::lround(std::clamp(24.0 * finer, 16.0, 128.0)));
+}
+
+/// Of a lamp seen in part n rays miss n^(-3/4).
+int corner_lamp_rays(const InteriorOptions& options) {
+  const double finer = std::pow(kUsualTolerance / mesh_tolerance_pct(options), 4.0 / 3.0);
+  return std::max(kCornerLampRays, static_cast<int>(std::lround(kCornerLampRays * finer)));
 }
 
 PointGatherOptions corner_options(const InteriorOptions& options) {
@@ -154,7 +161,8 @@ const LampsOnMesh& Interior::lamps_on(std::span<const std::uint8_t> is_lit) {
   }
   if (!is_known) {
     lamps_known_.assign(is_lit.begin(), is_lit.end());
-    lamps_ = lamps_on_mesh(mesh_, surfaces_, points_, emitters_, gather_, is_lit, options_.lift_m);
+    lamps_ = lamps_on_mesh(mesh_, surfaces_, points_, emitters_, gather_, is_lit, options_.lift_m,
+                           corner_lamp_rays(options_));
   }
   return lamps_;
 }

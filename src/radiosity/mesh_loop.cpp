@@ -168,7 +168,8 @@ void MeshLoop::make_fields(std::span<const double> size_m, SizeRange range) {
     for (std::size_t p = part.begin; p < part.end; ++p) {
       made[p] = std::make_unique<SizeField>(
           polygons_[p], samples[p],
-          SizeFieldOptions{.least_m = range.least_m, .most_m = range.most_m});
+          SizeFieldOptions{
+              .least_m = range.least_m, .most_m = range.most_m, .grading = options_.grading});
     }
   });
   field_.clear();

@@ -1,8 +1,9 @@
 // How wrong the light is on meshes by three meshers, against the number of elements:
 //   mesh_error SCENE.obj MATERIALS.toml SKY_LUX REFERENCE_ELEMENTS TOLERANCE_PCT CASE...
-// A case is uniform:ELEMENTS, refine:FIRST:MOST:ROUNDS[:THRESHOLD_PCT], bubble:FIRST:MOST:ROUNDS or
-// shadow:FIRST:MOST:ROUNDS (bubbles and shadow edges). SKY_LUX is that of a CIE overcast sky, 0 for
-// none. docs/benchmarks.md says what is compared; a line of CSV for each mesh that was solved.
+// A case is uniform:ELEMENTS, refine:FIRST:MOST:ROUNDS[:THRESHOLD_PCT],
+// bubble:FIRST:MOST:ROUNDS[:GRADING] or shadow:FIRST:MOST:ROUNDS (bubbles and shadow edges).
+// SKY_LUX is that of a CIE overcast sky, 0 for none. docs/benchmarks.md says what is compared; a
+// line of CSV for each mesh that was solved.
 
 #include <algorithm>
 #include <array>
@@ -251,7 +252,9 @@ MeshLoopOptions options_of(const std::vector<std::string>& part) {
   if (part.size() < 4) return options;
   options.elements_max = std::strtoul(part[2].c_str(), nullptr, 10);
   options.rounds = std::atoi(part[3].c_str());
-  if (part.size() > 4) options.threshold_pct = std::atof(part[4].c_str());
+  if (part.size() > 4) {
+    (part[0] == "refine" ? options.threshold_pct : options.grading) = std::atof(part[4].c_str());
+  }
   return options;
 }
 
