@@ -22,6 +22,8 @@ constexpr double kOtherShare = 0.1;  // of a polygon's area
 constexpr double kLeastGain = 0.9;   // of the error before: a round that gains less is the last
 constexpr double kLargest = 0.25;    // of the scene's longest side: largest element unasked
 constexpr double kSmallest = 1.0 / 4096.0;
+constexpr int kAttempts = 4;         // at a number of elements
+constexpr double kNearlyAll = 0.96;  // of the elements allowed
 
 /// What bubbles could not do, by kind.
 std::vector<Finding> findings_of(const std::vector<BubbleFlaw>& flaws) {
@@ -203,10 +205,29 @@ BubbleMesh MeshLoop::bubbles(std::span<const std::uint8_t> is_wanted, double sca
       constraints_, options);
 }
 
+BubbleMesh MeshLoop::bubbles_up_to(std::span<const std::uint8_t> is_wanted, bool is_short) const {
+  const auto most =
+      static_cast<double>(options_.elements_max > 0 ? options_.elements_max : kMostElements);
+  BubbleMesh best;
+  double scale = 1.0, most_yet = -1.0;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    BubbleMesh made = bubbles(is_wanted, scale);
+    double count = 0.0;
+    for (const PolygonMesh& mesh : made.meshes) count += static_cast<double>(mesh.elements.size());
+    const bool is_better = most_yet < 0.0 || most_yet > most ? count < most_yet || most_yet < 0.0
+                                                             : count > most_yet && count <= most;
+    if (is_better) best = std::move(made), most_yet = count;
+    if (count <= most && (!is_short || count >= kNearlyAll * most)) break;
+    scale *= std::sqrt(count / (0.5 * (1.0 + kNearlyAll) * most));
+  }
+  return best;
+}
+
 bool MeshLoop::remesh_by_bubbles(const LightOnMesh& light) {
   const Stopwatch watch;
   SizeRange range = options_.sizes;
   std::vector<double> size_m;
+  bool is_short = false;
   if (has_sizes_by_hand()) {
     size_m = sizes_by_change(light, range);
   } else {
@@ -222,16 +243,7 @@ bool MeshLoop::remesh_by_bubbles(const LightOnMesh& light) {
   size_field_s_ += watch.seconds();
   if (wanted == 0) return false;
   const Stopwatch meshing;
-  const std::size_t most = options_.elements_max > 0 ? options_.elements_max : kMostElements;
-  BubbleMesh made;
-  double scale = 1.0;
-  for (int attempt = 0; attempt < 4; ++attempt) {
-    made = bubbles(is_wanted, scale);
-    std::size_t count = 0;
-    for (const PolygonMesh& mesh : made.meshes) count += mesh.elements.size();
-    if (count <= most) break;
-    scale *= 1.02 * std::sqrt(static_cast<double>(count) / static_cast<double>(most));
-  }
+  BubbleMesh made = bubbles_up_to(is_wanted, is_short);
   findings_ = findings_of(made.flaws);
   auto pieces = pieces_of(*mesh_, polygon_of_, polygons_.size());
   for (std::size_t p = 0; p < pieces.size(); ++p) {

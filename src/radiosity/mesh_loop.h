@@ -38,7 +38,7 @@ struct MeshLoopOptions {
   SizeRange sizes{0.0, 0.0};
   std::size_t elements_max = 0;  ///< 0: as many as the tolerance takes, below a million
   double threshold_pct = 0.0;    ///< for `Refine`, of the mean illuminance; 0: the tolerance
-  double grading = 0.25;         ///< of the sizes of bubbles, metres per metre
+  double grading = 0.5;          ///< of the sizes of bubbles, metres per metre
   int rounds = 3;                ///< meshes after the first, at most
   /// [polygon] lines that edges of bubble meshes follow, and which part them where things touch; or
   /// none at all.
@@ -96,6 +96,8 @@ class MeshLoop {
   void make_fields(std::span<const double> size_m, SizeRange range);
   std::vector<std::uint8_t> polygons_to_mesh() const;
   BubbleMesh bubbles(std::span<const std::uint8_t> is_wanted, double scale) const;
+  /// As many elements as are allowed, or nearly, if that is too few for the tolerance.
+  BubbleMesh bubbles_up_to(std::span<const std::uint8_t> is_wanted, bool is_short) const;
   void take(std::vector<MeshPiece> pieces);
   bool has_sizes_by_hand() const {
     return options_.sizes.least_m > 0.0 && options_.sizes.most_m > 0.0;

@@ -16,6 +16,8 @@ constexpr std::size_t kMostLines = 2000;
 constexpr double kAside = 1e-3;      // metres to either side of a line, where it is looked from
 constexpr double kShortest = 0.01;   // metres: shorter parts are left out
 constexpr double kInPlane = 1e-5;    // metres: an edge that touches
+constexpr double kReached = 1e-4;    // metres: a ray that comes so near to a lamp is not stopped
+constexpr double kDrawnIn = 1e-3;    // of a lamp's size
 constexpr double kFlatLight = 1e-3;  // sine of the least altitude of light that throws edges
 
 struct Edge {
@@ -88,6 +90,15 @@ std::optional<double> crossing(const ConstraintSegment& s, const ConstraintSegme
   const double dx = other.b.x - other.a.x, dy = other.b.y - other.a.y;
   const double u = ((p.x - other.a.x) * dx + (p.y - other.a.y) * dy) / (dx * dx + dy * dy);
   if (u < 0.0 || u > 1.0) return {};
+  return t;
+}
+
+/// Where along `s` a point lies, if it lies on it: lines may run along one another.
+std::optional<double> place_on(const ConstraintSegment& s, PlanePoint p) {
+  const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y, whole = dx * dx + dy * dy;
+  const double t = ((p.x - s.a.x) * dx + (p.y - s.a.y) * dy) / whole;
+  const PlanePoint near = along(s, t);
+  if (t < 0.0 || t > 1.0 || std::hypot(near.x - p.x, near.y - p.y) > kInPlane) return {};
   return t;
 }
 
@@ -169,6 +180,9 @@ class Receiver {
     std::vector<double> at{0.0, 1.0};
     for (const ConstraintSegment& other : others) {
       if (const auto t = crossing(s, other)) at.push_back(*t);
+      for (const PlanePoint end : {other.a, other.b}) {
+        if (const auto t = place_on(s, end)) at.push_back(*t);
+      }
     }
     std::sort(at.begin(), at.end());
     std::vector<ConstraintSegment> cut;
@@ -201,22 +215,26 @@ class Receiver {
     return is_inside(left) && is_inside(right);
   }
 
-  /// Whether anything of the source is seen from a place, on the face that the light comes to.
-  bool is_lit(PlanePoint at, const Source& source) const {
+  /// How much of the source is seen from a place, on the face that the light comes to.
+  enum class Seen { None, Part, All };
+  Seen seen(PlanePoint at, const Source& source) const {
     const Vec3 place = polygon_.lifted(at);
     if (source.direction) {
       const double up = dot(*source.direction, polygon_.normal) > 0.0 ? 1.0 : -1.0;
-      return !rays_.is_occluded(place + up * rays_.lift_m() * polygon_.normal, *source.direction);
+      const Vec3 from = place + up * rays_.lift_m() * polygon_.normal;
+      return rays_.is_occluded(from, *source.direction) ? Seen::None : Seen::All;
     }
-    return std::any_of(source.point.begin(), source.point.end(), [&](Vec3 lamp) {
+    const auto is_seen = [&](Vec3 lamp) {
       const double up = height(lamp) > 0.0 ? 1.0 : -1.0;
       const Vec3 from = place + up * rays_.lift_m() * polygon_.normal;
       // Corners of a lamp are drawn in a little: a ray to its edge may pass it.
-      const Vec3 to = lamp + 0.01 * (source.point.back() - lamp), way = to - from;
+      const Vec3 to = lamp + kDrawnIn * (source.point.back() - lamp), way = to - from;
       const auto hit = rays_.first_hit(from, normalized(way));
-      constexpr double kReached = 1e-4;
       return !hit || hit->distance_m > length(way) - kReached;
-    });
+    };
+    const auto count = std::count_if(source.point.begin(), source.point.end(), is_seen);
+    if (count == 0) return Seen::None;
+    return count == std::ssize(source.point) ? Seen::All : Seen::Part;
   }
 
   bool is_border(const Line& line) const {
@@ -224,7 +242,7 @@ class Receiver {
     int differ = 0;
     for (const double t : {0.25, 0.5, 0.75}) {
       const auto [left, right] = beside(line.segment, t);
-      differ += is_lit(left, *line.source) != is_lit(right, *line.source);
+      differ += seen(left, *line.source) != seen(right, *line.source);
     }
     return differ >= 2;
   }

@@ -15,17 +15,17 @@ namespace tenku {
 
 /// Lines of one polygon, in its plane.
 struct ShadowEdges {
-  std::vector<ConstraintSegment> shadows;   ///< on one side the sun, or all of a lamp, is hidden
+  std::vector<ConstraintSegment> shadows;   ///< of umbrae, and outer ones of penumbrae
   std::vector<ConstraintSegment> contacts;  ///< edges of others that touch the polygon inside
 };
 
 /// Projects the edges of all polygons from the sun and from the corners of lamps onto every other
-/// polygon, cuts what falls inside where such lines cross, and keeps the parts on one side of
-/// which, and not on the other, the middle of the sun (or any corner, or the middle, of the lamp)
-/// is seen.
+/// polygon, cuts what falls inside where such lines cross, and keeps the parts that part places
+/// that see all, some and none of the lamp (by its corners and its middle), or the middle of the
+/// sun or not. They are where light stops, and where it begins to fade: between, it fades evenly.
 ///
-/// Source   of the lines: P. Heckbert, "Discontinuity meshing for radiosity", 1992: the edges of
-///          umbrae that corners of lamps and edges of casters make. Those of edges of lamps and
+/// Source   of the lines: P. Heckbert, "Discontinuity meshing for radiosity", 1992: the edges
+///          that corners of lamps and edges of casters make. Those of edges of lamps and
 ///          corners of casters, which are curved in general, are left out.
 /// Cost     edges x polygons projections, and for each line that falls inside about 20 rays; a
 ///          polygon on which more than 2,000 lines fall gets none

@@ -12,6 +12,7 @@ namespace tenku {
 namespace {
 
 constexpr double kShape = 0.1;        // see the header
+constexpr double kLeastOrder = 1.0;   // see the header
 constexpr double kOff = 0.5;          // see the header
 constexpr double kFineShare = 0.25;   // of the present size: no less in one step
 constexpr double kCoarseShare = 8.0;  // nor more
@@ -130,7 +131,8 @@ double size_for(const InterpolationError& error, double share, const SizeRange& 
   double size = range.most_m;
   if (error.lux > 0.0) {
     const double now = std::pow(error.lux * error.size_m, 2);
-    size = error.size_m * std::pow(share / now, 1.0 / (2.0 + 2.0 * error.order));
+    size = error.size_m *
+           std::pow(share / now, 1.0 / (2.0 + 2.0 * std::max(kLeastOrder, error.order)));
   }
   size = std::clamp(size, kFineShare * error.size_m, kCoarseShare * error.size_m);
   return std::clamp(size, range.least_m, std::max(range.least_m, range.most_m));

@@ -72,7 +72,7 @@ TEST(ShadowEdges, AreCutWhereAnotherShadowCoversThem) {
   EXPECT_NEAR(length_of(found.edges[1].shadows), 2.0, 1e-9);
 }
 
-TEST(ShadowEdges, OfALampBoundItsUmbra) {
+TEST(ShadowEdges, OfALampBoundUmbraAndPenumbra) {
   Surface surface;
   surface.materials[1].emission_lm_m2 = Rgb::grey(100.0);
   surface.level(-5, -5, 5, 5);
@@ -80,9 +80,19 @@ TEST(ShadowEdges, OfALampBoundItsUmbra) {
   surface.material = 1;
   surface.level(-0.1, -0.1, 0.1, 0.1, 2.0);
   const Found found(surface, {});
-  // Halfway up: a corner of the lamp at 0.1 throws the edge at 0.5 to 0.9. Beyond 1.1 all is seen.
-  expect_on_rectangle(found.polygons[0], found.edges[0].shadows, -0.9, -0.9, 0.9, 0.9);
-  EXPECT_NEAR(length_of(found.edges[0].shadows), 4 * 1.8, 0.1);
+  // Halfway up: corners of the lamp at 0.1 throw the edge at 0.5 to 0.9, where nothing of the lamp
+  // is seen any more, and to 1.1, where all of it is.
+  std::vector<ConstraintSegment> inner, outer;
+  for (const ConstraintSegment& line : found.edges[0].shadows) {
+    const Vec3 a = found.polygons[0].lifted(line.a), b = found.polygons[0].lifted(line.b);
+    const Vec3 middle = 0.5 * (a + b);
+    const bool is_inner = std::max(std::abs(middle.x), std::abs(middle.y)) < 1.0;
+    (is_inner ? inner : outer).push_back(line);
+  }
+  expect_on_rectangle(found.polygons[0], inner, -0.9, -0.9, 0.9, 0.9);
+  expect_on_rectangle(found.polygons[0], outer, -1.1, -1.1, 1.1, 1.1);
+  EXPECT_NEAR(length_of(inner), 4 * 1.8, 1e-6);
+  EXPECT_NEAR(length_of(outer), 4 * 2.2, 1e-6);
 }
 
 TEST(ShadowEdges, AreThoseOfWhatStandsOnASurface) {
