@@ -61,8 +61,11 @@ class Motion {
     const std::size_t chunks = (moving_ + kGrain - 1) / kGrain;
     near_.assign(chunks, {});
     near_pieces_.assign(chunks, {});
-    parallel_for(moving_, kGrain, [&](IndexRange range) {
-      for (std::size_t i = range.begin; i < range.end; ++i) append_near(grid, i);
+    parallel_for(chunks, 1, [&](IndexRange range) {
+      for (std::size_t c = range.begin; c < range.end; ++c) {
+        const std::size_t end = std::min(moving_, (c + 1) * kGrain);
+        for (std::size_t i = c * kGrain; i < end; ++i) append_near(grid, i);
+      }
     });
   }
 
