@@ -115,6 +115,7 @@ class Maker {
       case Kind::Crossing: {
         Ring ring;
         for (int k = whole(4, 12); k > 0; --k) ring.push_back({between(-1, 1), between(-1, 1)});
+        if (signed_area(ring) < 0.0) std::reverse(ring.begin(), ring.end());
         return {ring};
       }
     }
