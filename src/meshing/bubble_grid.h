@@ -20,6 +20,9 @@ namespace tenku {
 class BubbleGrid {
  public:
   static constexpr double kAnyRatio = 1e6;
+  /// Bubbles so many times smaller than what they are asked near to need not be found in any case:
+  /// there could be any number of them.
+  static constexpr double kMostFiner = 2.0;
 
   /// @param most_ratio  of sizes: bubbles that are so many times larger or smaller than what they
   ///                    are asked near to need not be found
@@ -46,7 +49,7 @@ class BubbleGrid {
   template <class Visit>
   void for_each_near(PlanePoint p, double size_m, double reach, const Visit& visit) const {
     const double largest = most_ratio_ * size_m;
-    const int finest = std::max(lowest_, level_of(size_m / most_ratio_));
+    const int finest = std::max(lowest_, level_of(size_m / std::min(most_ratio_, kMostFiner)));
     const int coarsest = std::min(highest_, level_of(largest));
     for (int level = finest; level <= coarsest; ++level) {
       visit_box(p, 0.5 * reach * (size_m + std::min(width_of(level), largest)), level, visit);

@@ -23,9 +23,9 @@ using SizeAt = std::function<double(std::size_t polygon, PlanePoint at)>;
 
 /// When bubbles have moved enough, and what is not moved.
 struct BubbleOptions {
-  std::size_t steps_most = 60;            ///< of the motion of a polygon's bubbles
-  double motion = 0.005;                  ///< root mean square of a step, in sizes, that ends it
-  std::size_t vertices_most = 1'000'000;  ///< of a polygon; more are refused
+  std::size_t steps_most = 60;          ///< of the motion of a polygon's bubbles
+  double motion = 0.003;                ///< root mean square of a step, in sizes, that ends it
+  std::size_t vertices_most = 200'000;  ///< of a polygon; more are refused
   /// [polygon] meshes that stay as they are, where they have elements; none, or as many as there
   /// are polygons. What is meshed beside one takes over its vertices on the edge that they share.
   std::span<const PolygonMesh> kept;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "core/random.h"
 
 namespace tenku {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 // and what a force of 1 adds to it. Six neighbours at rest pull back with a stiffness of 3, and up
 // to 6 where they move against one another: well below what oscillates.
 constexpr double kKept = 0.6, kGained = 0.2;
+constexpr double kDisorder = 0.2;      // range of the first velocities, in sizes
 constexpr double kLongestStep = 0.15;  // in sizes
 constexpr double kReach = 1.5;         // of the force, in mean sizes
 constexpr double kNearlyAll = 1.0;     // times the mean, a way that only some exceed
@@ -41,7 +43,13 @@ class Motion {
         marks_(face),
         moving_(face.at.size() - face.fixed),
         velocity_(moving_),
-        next_(moving_) {}
+        next_(moving_) {
+    // A little disorder, lest bubbles rest in an order that is not the best.
+    for (std::size_t i = 0; i < moving_; ++i) {
+      SampleRandom chance(0, i, 0);
+      velocity_[i] = {kDisorder * (chance.uniform() - 0.5), kDisorder * (chance.uniform() - 0.5)};
+    }
+  }
 
   std::size_t run(std::size_t steps_most, double motion) {
     double moved = kSkin;  // by nearly all at most, since neighbours were looked up

@@ -10,6 +10,8 @@ namespace {
 // In sizes. Bubbles that touch are 1 apart, and the nearest row lies sqrt(3) / 2 from an edge.
 constexpr double kClear = 0.75;
 constexpr double kClearOfPiece = 0.55;
+constexpr double kLongestWay = 2.5;
+constexpr double kMostMarks = 64.0;  // of a piece
 
 }  // namespace
 
@@ -18,7 +20,7 @@ PieceMarks::PieceMarks(const BubbleFace& face) : grid_(face.pieces.size()) {
     const PlanePoint a = face.at[face.pieces[i].a], b = face.at[face.pieces[i].b];
     const double length = std::hypot(b.x - a.x, b.y - a.y);
     const double size = std::min(face.size_m[face.pieces[i].a], face.size_m[face.pieces[i].b]);
-    const double n = std::max(1.0, std::ceil(length / (1.2 * size)));
+    const double n = std::clamp(std::ceil(length / (1.2 * size)), 1.0, kMostMarks);
     for (double k = 0.5; k < n; ++k) {
       grid_.insert(static_cast<std::uint32_t>(piece_.size()),
                    {a.x + k / n * (b.x - a.x), a.y + k / n * (b.y - a.y)}, size);
@@ -50,7 +52,9 @@ void BubblePlacer::fill(std::size_t most) {
 bool BubblePlacer::add_if_free(PlanePoint from, PlanePoint to, double clear) {
   if (!(to.x > low_.x && to.x < high_.x && to.y > low_.y && to.y < high_.y)) return false;
   const double size = face_.size_at(to);
-  if (!(size > 0.0)) return false;
+  // A step of many sizes into where bubbles are small: those beside fill that.
+  const double way = std::hypot(to.x - from.x, to.y - from.y) / size;
+  if (!(size > 0.0) || way > kLongestWay) return false;
   bool is_free = true;
   grid_.for_each_near(to, size, clear, [&](std::uint32_t i) {
     const double least = 0.5 * clear * (size + face_.size_m[i]);
@@ -58,7 +62,6 @@ bool BubblePlacer::add_if_free(PlanePoint from, PlanePoint to, double clear) {
     if (dx * dx + dy * dy < least * least) is_free = false;
   });
   if (!is_free) return false;
-  const double way = std::hypot(to.x - from.x, to.y - from.y) / size;
   marks_.for_each_near(to, size, std::max(way, kClearOfPiece), [&](std::uint32_t i) {
     if (!is_free) return;
     const PlanePoint a = face_.at[face_.pieces[i].a], b = face_.at[face_.pieces[i].b];

@@ -10,7 +10,7 @@ namespace tenku {
 namespace {
 
 // In sizes. Edges are 1 and radii 0.58 where bubbles touch.
-constexpr double kCrowded = 0.62, kWide = 0.85, kLow = 0.4, kClear = 0.65;
+constexpr double kCrowded = 0.68, kWide = 0.8, kLow = 0.4, kClear = 0.65;
 
 double distance(PlanePoint a, PlanePoint b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
