@@ -5,7 +5,7 @@ import math
 
 WIDTH, HEIGHT = 760, 470
 LEFT, RIGHT, TOP, BOTTOM = 78, 44, 84, 62
-COLOURS = ("#b3401e", "#1f5fa8")
+COLOURS = ("#b3401e", "#1f5fa8", "#2f7d32", "#7a4fa3")
 
 
 class LogAxis:
@@ -78,7 +78,7 @@ def draw_legend(names):
 
 def write_chart(path, title, labels, series):
     """@param labels  of the time and of the error axis, with units
-    @param series  up to two of (name, [(time, error, label of the point)])"""
+    @param series  up to four of (name, [(time, error, label of the point)])"""
     every = [point for _, points in series for point in points]
     x = LogAxis([t for t, _, _ in every], LEFT, WIDTH - RIGHT)
     y = LogAxis([e for _, e, _ in every], HEIGHT - BOTTOM, TOP)

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "cli/lit_scene_files.h"
@@ -158,6 +160,63 @@ TEST(RadiosityCommand, RefusesWhatItCannotDo) {
         " --out room.vtp --form-factors magic", " --out nowhere/room.vtp"}) {
     const auto run = run_tenku(kRoom + kOvercast + wrong, folder);
     EXPECT_EQ(run.exit_code, 2) << wrong << run.err;
+  }
+}
+
+const std::string kRectangles =
+    "radiosity " TENKU_SCENES
+    "/verification/floating_rectangles/floating_rectangles.obj --materials " TENKU_SCENES
+    "/verification/floating_rectangles/materials.toml --sky none --ground none "
+    "--tolerance 5 --out ";
+
+TEST(RadiosityCommand, MakesTheMeshAnewToSuitTheLight) {
+  const fs::path folder = test_folder();
+  const auto run = run_tenku(kRectangles +
+                                 "f.vtp --mesh bubble --shadow-edges --size-first 0.25 "
+                                 "--elements-max 900 --rounds 1 --report f.html --json",
+                             folder);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const json summary = json::parse(run.out);
+  ASSERT_EQ(summary["rounds"].size(), 2U);
+  EXPECT_LE(summary["elements"].get<int>(), 900);
+  EXPECT_GT(summary["seconds"]["size_field_s"].get<double>(), 0.0);
+  EXPECT_GT(summary["seconds"]["remesh_s"].get<double>(), 0.0);
+  const FieldMesh field = read_vtp(folder / "f.vtp");
+  const auto has = [](const auto& arrays, const std::string& name) {
+    return std::any_of(arrays.begin(), arrays.end(), [&](const auto& a) { return a.name == name; });
+  };
+  EXPECT_TRUE(has(field.point_values, "asked_size_m"));
+  EXPECT_TRUE(has(field.cell_values, "element_size_m"));
+  std::ifstream file(folder / "f.html");
+  const std::string page(std::istreambuf_iterator<char>(file), {});
+  for (const char* text : {"First mesh", "Split where neighbours differ", "Bubble mesh"}) {
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+  }
+}
+
+TEST(RadiosityCommand, SplitsTheMeshWhereNeighboursDiffer) {
+  const fs::path folder = test_folder();
+  const auto run = run_tenku(
+      kRectangles + "f.vtp --mesh refine --elements-max 1200 --split-above 3 --json", folder);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const json rounds = json::parse(run.out)["rounds"];
+  ASSERT_GE(rounds.size(), 2U);
+  EXPECT_GT(rounds.back()["elements"], rounds.front()["elements"]);
+  EXPECT_LE(rounds.back()["elements"].get<int>(), 1200);
+  EXPECT_LT(rounds.back()["missed_pct"].get<double>(), rounds.front()["missed_pct"].get<double>());
+}
+
+TEST(RadiosityCommand, RefusesMeshOptionsThatDoNotBelong) {
+  const fs::path folder = test_folder();
+  for (const auto& [options, named] : std::vector<std::pair<std::string, std::string>>{
+           {"--mesh bubbles", "bubbles"},
+           {"--shadow-edges", "--shadow-edges"},
+           {"--mesh bubble --split-above 3", "--split-above"},
+           {"--rounds 2", "--rounds"},
+           {"--mesh bubble --size-min 0.5 --size-max 0.1", "size"}}) {
+    const auto run = run_tenku(kRectangles + "f.vtp " + options, folder);
+    EXPECT_EQ(run.exit_code, 2) << options;
+    EXPECT_NE(run.err.find(named), std::string::npos) << run.err;
   }
 }
 
