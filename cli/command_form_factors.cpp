@@ -11,8 +11,8 @@
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/suggest.h"
+#include "form_factors/group_form_factors.h"
 #include "output/table_writer.h"
-#include "radiosity/group_form_factors.h"
 #include "scene/flatten.h"
 
 namespace tenku {

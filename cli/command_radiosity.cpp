@@ -13,11 +13,11 @@
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/stopwatch.h"
+#include "meshing/mesh_surfaces.h"
 #include "output/field_writer.h"
 #include "output/sensor_file.h"
 #include "output/table_writer.h"
 #include "radiosity/interior.h"
-#include "radiosity/mesh_surfaces.h"
 #include "study/radiosity_field.h"
 #include "study/work_plane.h"
 

@@ -4,9 +4,9 @@
 #include "core/random.h"
 #include "form_factors/form_factor_methods.h"
 #include "form_factors/lambert_polygon.h"
-#include "meshing/mesh_soup.h"
 #include "form_factors/point_view.h"
 #include "form_factors/visible_polygon.h"
+#include "meshing/mesh_soup.h"
 #include "visibility/ray_visibility.h"
 
 namespace tenku {

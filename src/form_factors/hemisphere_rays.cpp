@@ -4,8 +4,8 @@
 
 #include "core/random.h"
 #include "form_factors/form_factor_methods.h"
-#include "meshing/mesh_soup.h"
 #include "form_factors/point_view.h"
+#include "meshing/mesh_soup.h"
 #include "visibility/ray_visibility.h"
 
 namespace tenku {

@@ -7,8 +7,8 @@
 
 #include "core/progress.h"
 #include "core/rgb.h"
-#include "radiosity/daylight_sources.h"
 #include "meshing/element_mesh.h"
+#include "radiosity/daylight_sources.h"
 #include "radiosity/emitter_light.h"
 #include "radiosity/point_gather.h"
 #include "radiosity/side_points.h"

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "core/progress.h"
-#include "meshing/element_mesh.h"
 #include "form_factors/form_factor.h"
 #include "form_factors/form_factor_store.h"
 #include "form_factors/outward_view.h"
+#include "meshing/element_mesh.h"
 
 namespace tenku {
 

@@ -12,11 +12,11 @@
 
 #include "core/progress.h"
 #include "core/rgb.h"
-#include "illuminance/sensor.h"
-#include "meshing/element_mesh.h"
 #include "form_factors/form_factor.h"
 #include "form_factors/form_factor_store.h"
 #include "form_factors/outward_view.h"
+#include "illuminance/sensor.h"
+#include "meshing/element_mesh.h"
 
 namespace tenku {
 
