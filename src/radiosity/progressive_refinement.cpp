@@ -43,6 +43,9 @@ class Refinement {
   void shoot(std::uint32_t patch_side, const FormFactorRow& row) {
     const Rgb flux = take_unshot(patch_side);
     double arrived = 0.0;
+    // Sides of a patch follow one another in a row: what they send is added up before it is stored.
+    std::size_t sender = 0;
+    double sum_lm = 0.0;
     for (const FormFactor& f : row) {
       const Receiver& element = element_[f.side / 2];
       SideState& side = side_[f.side];
@@ -50,11 +53,15 @@ class Refinement {
       const Rgb sent = element.reflectance * lux;
       side.received = side.received + lux;
       side.unshot = side.unshot + sent;
-      const double sent_lm = element.area_m2 * luminance_of(sent);
-      unshot_lm_[2 * element.patch + f.side % 2] += sent_lm;
-      total_unshot_lm_ += sent_lm;
+      const std::size_t its_patch = 2 * element.patch + f.side % 2;
+      if (its_patch != sender) {
+        add_unshot(sender, sum_lm);
+        sender = its_patch, sum_lm = 0.0;
+      }
+      sum_lm += element.area_m2 * luminance_of(sent);
       arrived += f.value;
     }
+    add_unshot(sender, sum_lm);
     const double lm = luminance_of(flux);
     received_lm_ += arrived * lm;
     escaped_lm_ += (1.0 - arrived) * lm;
@@ -133,6 +140,11 @@ class Refinement {
         unshot_lm_[2 * patch + face] += area * luminance_of(side_[s].unshot);
       }
     }
+  }
+
+  void add_unshot(std::size_t patch_side, double lm) {
+    unshot_lm_[patch_side] += lm;
+    total_unshot_lm_ += lm;
   }
 
   Rgb take_unshot(std::uint32_t patch_side) {
