@@ -19,8 +19,8 @@ namespace tenku {
 namespace {
 
 constexpr std::size_t kGrain = 16;                // sensors a task
-constexpr int kFirst = 16, kMost = 256;           // slices in a turn
-constexpr int kEnough = 24;                       // that see the sky
+constexpr int kFirst = 16, kMost = 512;           // slices in a turn
+constexpr int kEnough = 32;                       // that see the sky
 constexpr std::uint64_t kStream = 0x6b657074ULL;  // of the random start of slices
 
 /// The slices of one sensor, more and more where it sees the sky.
