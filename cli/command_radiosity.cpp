@@ -91,7 +91,8 @@ class RadiosityRun {
                   ? std::vector<SkyRow>{{options.lit.site, options.lit.sky, 1.0}}
                   : read_sky_rows(options.skies, options.lit.site, options.lit.sky)),
         lit_(load_lit_scene(as_in_first_row(options.lit, rows_), context.progress)),
-        loop_(make_mesh()) {}
+        loop_(make_mesh()),
+        sensor_daylight_(rows_.size() > 1) {}
 
   int finish() {
     if (options_.wants_sensors()) place_sensors();
@@ -121,6 +122,7 @@ class RadiosityRun {
   Interior& interior() { return loop_->interior(); }
 
   InteriorOptions with_watch(InteriorOptions how) {
+    how.many_skies = rows_.size() > 1;
     if (options_.watch.empty()) return how;
     std::filesystem::create_directories(options_.watch);
     how.watch = [this](const ShotView& view) {
@@ -197,9 +199,7 @@ class RadiosityRun {
     SensorIlluminance values(sensors_.size());
     const Stopwatch watch;
     if (run.open_lux > 0.0) {
-      IlluminanceResult direct = illuminate(sensors_, lit_.engines(), daylight.source,
-                                            daylight.options, daylight.method, context_.progress);
-      values = std::move(direct.values);
+      values = sensor_daylight_.light(sensors_, daylight, context_.progress).values;
     }
     interior().add_reflected(look_, run.light, values, context_.progress);
     sensors_s_ += watch.seconds();
@@ -306,6 +306,7 @@ class RadiosityRun {
   std::unique_ptr<MeshLoop> loop_;
   Sensors in_file_, sensors_;
   InteriorSensors look_;
+  KeptDaylight sensor_daylight_;
   std::optional<CsvTable> table_;
   std::vector<LightRun> runs_;
   std::size_t missed_ = 0;
