@@ -22,7 +22,7 @@ constexpr double kOtherShare = 0.1;  // of a polygon's area
 constexpr double kLeastGain = 0.9;   // of the error before: a round that gains less is the last
 constexpr double kLargest = 0.25;    // of the scene's longest side: largest element unasked
 constexpr double kSmallest = 1.0 / 4096.0;
-constexpr int kAttempts = 4;         // at a number of elements
+constexpr int kAttempts = 3;         // at a number of elements
 constexpr double kNearlyAll = 0.96;  // of the elements allowed
 
 /// What bubbles could not do, by kind.
@@ -205,11 +205,25 @@ BubbleMesh MeshLoop::bubbles(std::span<const std::uint8_t> is_wanted, double sca
       constraints_, options);
 }
 
+/// Equilateral triangles of the sizes asked for.
+double MeshLoop::foreseen_elements() const {
+  double sum = 0.0;
+  for (std::size_t e = 0; e < mesh_->size(); ++e) {
+    const std::uint32_t p = polygon_of_[e];
+    const double size = field_[p].at(polygons_[p].flat(mesh_->centre(e)));
+    sum += mesh_->area_m2(e) / (std::sqrt(3.0) / 4.0 * size * size);
+  }
+  return sum;
+}
+
 BubbleMesh MeshLoop::bubbles_up_to(std::span<const std::uint8_t> is_wanted, bool is_short) const {
   const auto most =
       static_cast<double>(options_.elements_max > 0 ? options_.elements_max : kMostElements);
+  const double wished = 0.5 * (1.0 + kNearlyAll) * most;
   BubbleMesh best;
   double scale = 1.0, most_yet = -1.0;
+  const double foreseen = foreseen_elements();
+  if (is_short || foreseen > wished) scale = std::sqrt(foreseen / wished);
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     BubbleMesh made = bubbles(is_wanted, scale);
     double count = 0.0;
@@ -218,7 +232,7 @@ BubbleMesh MeshLoop::bubbles_up_to(std::span<const std::uint8_t> is_wanted, bool
                                                              : count > most_yet && count <= most;
     if (is_better) best = std::move(made), most_yet = count;
     if (count <= most && (!is_short || count >= kNearlyAll * most)) break;
-    scale *= std::sqrt(count / (0.5 * (1.0 + kNearlyAll) * most));
+    scale *= std::sqrt(count / wished);
   }
   return best;
 }

@@ -96,6 +96,7 @@ class MeshLoop {
   void make_fields(std::span<const double> size_m, SizeRange range);
   std::vector<std::uint8_t> polygons_to_mesh() const;
   BubbleMesh bubbles(std::span<const std::uint8_t> is_wanted, double scale) const;
+  double foreseen_elements() const;
   /// As many elements as are allowed, or nearly, if that is too few for the tolerance.
   BubbleMesh bubbles_up_to(std::span<const std::uint8_t> is_wanted, bool is_short) const;
   void take(std::vector<MeshPiece> pieces);
