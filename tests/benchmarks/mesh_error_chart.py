@@ -1,5 +1,5 @@
-"""Error against elements for each mesher: mesh_error_chart.py CURVE.csv CHART.svg TITLE, from what mesh_error prints;
-and at how many elements the others are as wrong as bubbles are."""
+"""Error against elements for each mesher: mesh_error_chart.py CHART.svg TITLE CURVE.csv..., from what mesh_error prints;
+and in parts of how many elements of the others bubbles are as wrong. Of each mesher the best runs count."""
 
 import csv
 import math
@@ -9,20 +9,25 @@ import sys
 from error_time_chart import write_chart
 
 NAMES = {"uniform": "uniform", "refine": "refine", "bubble": "bubble", "shadow": "bubble, shadow edges"}
-ROUNDS = {"refine": "3", "bubble": "2", "shadow": "2"}
 
 
-def read_curves(path):
-    """@return for each mesher [(elements, percent)], rising; single comparisons are left out"""
-    with open(path, encoding="utf-8") as file:
-        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+def best(points):
+    """Those than which none has fewer elements and less error."""
+    kept = []
+    for elements, error in sorted(points):
+        if not kept or error < kept[-1][1]:
+            kept.append((elements, error))
+    return kept
+
+
+def read_curves(paths):
+    """@return for each mesher that ran [(elements, percent)], rising in elements, falling in error"""
     curves = {name: [] for name in NAMES}
-    for row in rows:
-        part = row["case"].split(":")
-        if len(part) > 2 and part[3] != ROUNDS[part[0]]:
-            continue
-        curves[part[0]].append((int(row["elements"]), float(row["rms_pct"])))
-    return {name: sorted(points) for name, points in curves.items()}
+    for path in paths:
+        with open(path, encoding="utf-8") as file:
+            for row in csv.DictReader(line for line in file if not line.startswith("#")):
+                curves[row["case"].split(":")[0]].append((int(row["elements"]), float(row["rms_pct"])))
+    return {name: best(points) for name, points in curves.items() if points}
 
 
 def elements_at(points, error):
@@ -35,13 +40,13 @@ def elements_at(points, error):
 
 
 def main():
-    path, chart, title = sys.argv[1:4]
-    curves = read_curves(path)
+    chart, title = sys.argv[1:3]
+    curves = read_curves(sys.argv[3:])
     write_chart(pathlib.Path(chart), title, ("elements", "RMS of illuminance, percent of the mean"),
                 [(NAMES[name], [(n, e, "") for n, e in points]) for name, points in curves.items()])
     print("mesh,elements,rms_pct,of_refine_pct,of_uniform_pct")
     for name in ("bubble", "shadow"):
-        for elements, error in curves[name]:
+        for elements, error in curves.get(name, []):
             shares = [elements_at(curves[other], error) for other in ("refine", "uniform")]
             words = [f"{100.0 * elements / n:.0f}" if n else "" for n in shares]
             print(f"{name},{elements},{error:.2f},{','.join(words)}")
