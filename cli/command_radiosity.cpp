@@ -81,6 +81,16 @@ struct LightRun {
   double seconds = 0.0, daylight_s = 0.0;
 };
 
+nlohmann::ordered_json json_of_rounds(const MeshLoop& loop) {
+  auto rounds = nlohmann::ordered_json::array();
+  for (const MeshRound& round : loop.rounds()) {
+    rounds.push_back({{"elements", round.elements},
+                      {"polygons_meshed", round.polygons_meshed},
+                      {"missed_pct", round.missed_pct}});
+  }
+  return rounds;
+}
+
 /// The whole calculation of one scene.
 class RadiosityRun {
  public:

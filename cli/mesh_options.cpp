@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "core/atomic_file.h"
@@ -154,16 +153,6 @@ void write_mesh_report(const LitScene& lit, const RadiosityMeshOptions& options,
                                                  : "Uniform mesh",
                       &last);
   write_whole_file(options.report, mesh_report("Meshes for radiosity", meshes));
-}
-
-nlohmann::ordered_json json_of_rounds(const MeshLoop& loop) {
-  auto rounds = nlohmann::ordered_json::array();
-  for (const MeshRound& round : loop.rounds()) {
-    rounds.push_back({{"elements", round.elements},
-                      {"polygons_meshed", round.polygons_meshed},
-                      {"missed_pct", round.missed_pct}});
-  }
-  return rounds;
 }
 
 }  // namespace tenku

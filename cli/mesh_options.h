@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -43,8 +42,5 @@ bool is_fine_enough(const MeshLoop& loop, const RadiosityMeshOptions& options, d
 void write_mesh_report(const LitScene& lit, const RadiosityMeshOptions& options,
                        const InteriorOptions& interior, const MeshLoop& last,
                        const LightRequest& request, Progress& progress);
-
-/// For `--json`: a list of `elements`, `polygons_meshed`, `missed_pct`.
-nlohmann::ordered_json json_of_rounds(const MeshLoop& loop);
 
 }  // namespace tenku

@@ -12,8 +12,9 @@ namespace tenku {
 namespace {
 
 constexpr Rgb8 kPaper{255, 255, 255}, kFace{238, 241, 245}, kLine{40, 60, 90};
-constexpr double kLineWidth = 0.55;  // pixels, to each side
-constexpr double kEdge = 1e-9;       // of the weights: a point on an edge belongs to both
+constexpr double kLineWidth = 0.7;  // pixels, to each side
+constexpr double kMargin = 12.0;    // pixels about what is shown
+constexpr double kEdge = 1e-9;      // of the weights: a point on an edge belongs to both
 
 struct Box {
   int x0, x1, y0, y1;
@@ -110,16 +111,33 @@ MeshPictures draw_mesh(const std::vector<MeshTriangle>& triangles, const Perspec
 }
 
 PerspectiveView view_of_all(const std::vector<MeshTriangle>& triangles, int width, int height) {
+  const Vec3 backward = normalized(Vec3{-0.35, -0.75, 0.65});
+  std::vector<Vec3> seen;
   Extent box;
   for (const MeshTriangle& t : triangles) {
-    for (const Vec3 corner : t.corners) box.add(corner);
+    const auto& [a, b, c] = t.corners;
+    if (!(dot(cross(b - a, c - a), backward) > 0.0)) continue;
+    for (const Vec3 corner : t.corners) box.add(corner), seen.push_back(corner);
   }
   PerspectiveView view;
   view.width = width;
   view.height = height;
   view.horizontal_fov = Angle::degrees(40.0);
+  if (seen.empty()) return view;
   view.target = box.middle();
-  view.eye = view.target + 1.45 * length(box.size()) * normalized(Vec3{-0.35, -0.75, 0.65});
+  const auto shows_all = [&] {
+    const PerspectiveCamera camera(view);
+    return std::all_of(seen.begin(), seen.end(), [&](Vec3 corner) {
+      const auto at = camera.pixel_of(corner);
+      return at && at->x > kMargin && at->y > kMargin && at->x < width - kMargin &&
+             at->y < height - kMargin;
+    });
+  };
+  constexpr int kMostSteps = 40;  // to seven times the size
+  for (int step = 0; step < kMostSteps; ++step) {
+    view.eye = view.target + std::pow(1.05, step) * length(box.size()) * backward;
+    if (shows_all()) break;
+  }
   return view;
 }
 
