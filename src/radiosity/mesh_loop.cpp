@@ -224,7 +224,7 @@ BubbleMesh MeshLoop::bubbles_up_to(std::span<const std::uint8_t> is_wanted, bool
   double scale = 1.0, most_yet = -1.0;
   const double foreseen = foreseen_elements();
   if (is_short || foreseen > wished) scale = std::sqrt(foreseen / wished);
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+  for (int attempt = 0; attempt < (most_yet > most ? 3 : 1) * kAttempts; ++attempt) {
     BubbleMesh made = bubbles(is_wanted, scale);
     double count = 0.0;
     for (const PolygonMesh& mesh : made.meshes) count += static_cast<double>(mesh.elements.size());
