@@ -31,7 +31,7 @@ MeshOptions first_sizes(const RadiosityMeshOptions& options, Mesher mesher, doub
     first.element_min_m = 0.0;
     first.elements_max = 0;
   }
-  if (options.first_m > 0.0) first.element_m = options.first_m;
+  if (options.first_m > 0.0) first.element_m = options.first_m, first.elements_max = 0;
   return first;
 }
 

@@ -164,8 +164,10 @@ TEST(RadiosityCommand, RefusesWhatItCannotDo) {
 }
 
 const std::string kRectangles =
-    "radiosity " TENKU_SOURCE_DIR "/scenes"
-    "/verification/floating_rectangles/floating_rectangles.obj --materials " TENKU_SOURCE_DIR "/scenes"
+    "radiosity " TENKU_SOURCE_DIR
+    "/scenes"
+    "/verification/floating_rectangles/floating_rectangles.obj --materials " TENKU_SOURCE_DIR
+    "/scenes"
     "/verification/floating_rectangles/materials.toml --sky none --ground none "
     "--tolerance 5 --out ";
 
