@@ -187,7 +187,7 @@ class Maker {
 
 int asked() {
   const char* number = std::getenv("TENKU_RANDOM_POLYGONS");
-  return number != nullptr ? std::atoi(number) : 270;
+  return number != nullptr ? std::atoi(number) : 90;
 }
 
 struct Count {
