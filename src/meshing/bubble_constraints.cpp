@@ -90,7 +90,7 @@ class ConstraintAdder {
   /// The bubble that is there, or at the end of a piece that is there, or a new one.
   std::uint32_t bubble_at(PlanePoint p) {
     const double size = face_.size_at(p);
-    if (!(size > 0.0)) return kNone;
+    if (!is_size(size)) return kNone;
     std::uint32_t nearest = kNone;
     double least = kSameBubble * size;
     for (std::uint32_t i = 0; i < face_.at.size(); ++i) {
