@@ -1,40 +1,16 @@
-#include <CGAL/Constrained_Delaunay_triangulation_2.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Triangulation_face_base_with_info_2.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <deque>
 #include <limits>
 #include <map>
 #include <numbers>
 #include <utility>
 
 #include "meshing/polygon_mesh.h"
-#include "scene/scene.h"
+#include "scene/constrained_delaunay.h"
 
 namespace tenku {
 namespace {
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point2 = Kernel::Point_2;
-
-struct FaceInfo {
-  bool is_seen = false, is_inside = false;
-};
-
-struct VertexInfo {
-  std::uint32_t index = kNone;  ///< none where edges cross between their ends
-};
-
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<VertexInfo, Kernel>;
-using FaceBase = CGAL::Constrained_triangulation_face_base_2<
-    Kernel, CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel>>;
-using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
-using Delaunay =
-    CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::Exact_predicates_tag>;
 
 // Points stand closer than the longest edge allowed, for those that are not in a regular place.
 constexpr double kSpacing = 0.8;
@@ -123,49 +99,42 @@ class Builder {
   PolygonMesh mesh() {
     for (const auto& ring : polygon_.rings) add_ring(ring);
     for (const PlanePoint p : lattice(outline_of(polygon_), kSpacing * element_m_)) add_inner(p);
-    if (mesh_.dimension() < 2) return {};  // all on a line: nothing to fill
-    mark_inside();
-    place_crossings();
-    split_long_edges();
-    for (const auto face : mesh_.finite_face_handles()) {
-      if (face->info().is_inside) append_element(face);
+    mesh_.number_crossings();
+    while (made_.vertices.size() < mesh_.size()) {
+      const auto [x, y] = mesh_.place(static_cast<Vertex>(made_.vertices.size()));
+      made_.vertices.push_back(polygon_.lifted({x, y}));
     }
+    split_long_edges();
+    for (const auto& face : mesh_.inside()) append_element(face.corner);
     return std::move(made_);
   }
 
  private:
-  Delaunay::Vertex_handle add(Vec3 place) {
+  using Vertex = ConstrainedDelaunay::Vertex;
+
+  Vertex add(Vec3 place) {
     const PlanePoint p = polygon_.flat(place);
-    const std::size_t before = mesh_.number_of_vertices();
-    const auto near = last_ == Delaunay::Vertex_handle() ? Delaunay::Face_handle() : last_->face();
-    const auto vertex = mesh_.insert(Point2(p.x, p.y), near);
-    last_ = vertex;
-    if (mesh_.number_of_vertices() > before) {
-      vertex->info().index = static_cast<std::uint32_t>(made_.vertices.size());
-      made_.vertices.push_back(place);
-    }
+    const Vertex vertex = mesh_.insert(p.x, p.y);
+    if (vertex == made_.vertices.size()) made_.vertices.push_back(place);
     return vertex;
   }
 
   void add_inner(PlanePoint p) { add(polygon_.lifted(p)); }
 
   void add_ring(const std::vector<Vec3>& ring) {
-    std::vector<Delaunay::Vertex_handle> vertices;
+    std::vector<Vertex> vertices;
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const Vec3 from = ring[i], to = ring[(i + 1) % ring.size()];
       const double n = std::max(1.0, std::ceil(length(to - from) / (kSpacing * element_m_)));
       for (double k = 0.0; k < n; ++k) vertices.push_back(add(from + (k / n) * (to - from)));
     }
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-      const auto a = vertices[i], b = vertices[(i + 1) % vertices.size()];
-      if (a != b) mesh_.insert_constraint(a, b);
+      mesh_.keep_bound(vertices[i], vertices[(i + 1) % vertices.size()]);
     }
   }
 
   /// Leaves out what rounding makes of three points on a line, which has no normal.
-  void append_element(Delaunay::Face_handle face) {
-    std::array<std::uint32_t, 3> element{};
-    for (unsigned k = 0; k < 3; ++k) element[k] = face->vertex(static_cast<int>(k))->info().index;
+  void append_element(const std::array<Vertex, 3>& element) {
     const Vec3 a = made_.vertices[element[0]], ab = made_.vertices[element[1]] - a,
                ac = made_.vertices[element[2]] - a;
     constexpr double kFlat = 1e-9;
@@ -175,44 +144,19 @@ class Builder {
     }
   }
 
-  void place_crossings() {
-    for (const auto vertex : mesh_.finite_vertex_handles()) {
-      if (vertex->info().index != kNone) continue;
-      vertex->info().index = static_cast<std::uint32_t>(made_.vertices.size());
-      made_.vertices.push_back(polygon_.lifted({vertex->point().x(), vertex->point().y()}));
-    }
-  }
-
-  /// By the odd-even rule.
-  void mark_inside() {
-    std::deque<Delaunay::Face_handle> queue{mesh_.infinite_face()};
-    mesh_.infinite_face()->info() = {true, false};
-    while (!queue.empty()) {
-      const Delaunay::Face_handle face = queue.front();
-      queue.pop_front();
-      for (int i = 0; i < 3; ++i) {
-        const Delaunay::Face_handle next = face->neighbor(i);
-        if (next->info().is_seen) continue;
-        next->info() = {true, face->info().is_inside != mesh_.is_constrained({face, i})};
-        queue.push_back(next);
-      }
-    }
-  }
-
-  using Middles = std::map<std::pair<std::uint32_t, std::uint32_t>, PlanePoint>;
+  using Middles = std::map<std::pair<Vertex, Vertex>, PlanePoint>;
 
   /// Of edges inside that are too long, in an order that does not hang on where things lie in
   /// memory.
-  Middles middles_of_long_edges() const {
+  Middles middles_of_long_edges() {
     Middles middles;
-    for (const auto face : mesh_.finite_face_handles()) {
-      for (int i = 0; face->info().is_inside && i < 3; ++i) {
-        if (mesh_.is_constrained({face, i})) continue;
-        const auto a = face->vertex(mesh_.cw(i)), b = face->vertex(mesh_.ccw(i));
-        const Point2 &p = a->point(), &q = b->point();
-        if (std::hypot(p.x() - q.x(), p.y() - q.y()) <= element_m_) continue;
-        middles[std::minmax(a->info().index, b->info().index)] = {(p.x() + q.x()) / 2.0,
-                                                                  (p.y() + q.y()) / 2.0};
+    for (const auto& [corner, is_kept] : mesh_.inside()) {
+      for (unsigned i = 0; i < 3; ++i) {
+        if (is_kept[i]) continue;
+        const Vertex a = corner[(i + 1) % 3], b = corner[(i + 2) % 3];
+        const auto p = mesh_.place(a), q = mesh_.place(b);
+        if (std::hypot(p[0] - q[0], p[1] - q[1]) <= element_m_) continue;
+        middles[std::minmax(a, b)] = {(p[0] + q[0]) / 2.0, (p[1] + q[1]) / 2.0};
       }
     }
     return middles;
@@ -223,15 +167,12 @@ class Builder {
       const Middles middles = middles_of_long_edges();
       if (middles.empty()) return;
       for (const auto& [edge, middle] : middles) add_inner(middle);
-      for (const auto face : mesh_.all_face_handles()) face->info() = {};
-      mark_inside();
     }
   }
 
   const FlatPolygon& polygon_;
   double element_m_;
-  Delaunay mesh_;
-  Delaunay::Vertex_handle last_;  ///< where the next one is near; faces come and go
+  ConstrainedDelaunay mesh_;
   PolygonMesh made_;
 };
 

@@ -1,39 +1,21 @@
 #include "scene/triangulation.h"
 
-#include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_2_algorithms.h>
-#include <CGAL/Triangulation_face_base_with_info_2.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <map>
 #include <span>
 #include <utility>
+
+#include "scene/constrained_delaunay.h"
 
 namespace tenku {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point2 = Kernel::Point_2;
-
-struct VertexInfo {
-  std::uint32_t index = kNone;  ///< none where boundaries cross between their vertices
-};
-constexpr int kUnseen = -1;
-
-struct FaceInfo {
-  int level = kUnseen;  ///< number of boundaries between the face and the outside
-};
-
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<VertexInfo, Kernel>;
-using FaceBase = CGAL::Constrained_triangulation_face_base_2<
-    Kernel, CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel>>;
-using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
-using Delaunay =
-    CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::Exact_predicates_tag>;
 
 /// Mean plane of a polygon with a right-handed frame in it.
 struct Plane {
@@ -73,57 +55,33 @@ Plane plane_of(const Surfaces& surfaces, std::size_t surface, const std::vector<
   return plane;
 }
 
-using Edge = std::pair<std::uint32_t, std::uint32_t>;
-
 /// Edges of all rings. One that is passed twice, as where a hole is tied to the outer ring, bounds
 /// nothing and is left out.
 class Boundary {
  public:
-  void add(const std::vector<Delaunay::Vertex_handle>& ring) {
+  using Vertex = ConstrainedDelaunay::Vertex;
+
+  void add(const std::vector<Vertex>& ring) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
-      const auto a = ring[i], b = ring[(i + 1) % ring.size()];
+      const Vertex a = ring[i], b = ring[(i + 1) % ring.size()];
       if (a == b) continue;
-      const std::uint32_t from = a->info().index, to = b->info().index;
-      Pass& pass = passes_[{std::min(from, to), std::max(from, to)}];
+      Pass& pass = passes_[{std::min(a, b), std::max(a, b)}];
       pass = {a, b, !pass.is_odd};
     }
   }
-  void constrain(Delaunay& mesh) const {
+  void keep_in(ConstrainedDelaunay& mesh) const {
     for (const auto& [edge, pass] : passes_) {
-      if (pass.is_odd) mesh.insert_constraint(pass.a, pass.b);
+      if (pass.is_odd) mesh.keep_bound(pass.a, pass.b);
     }
   }
 
  private:
   struct Pass {
-    Delaunay::Vertex_handle a, b;
+    Vertex a, b;
     bool is_odd = false;
   };
-  std::map<Edge, Pass> passes_;
+  std::map<std::pair<Vertex, Vertex>, Pass> passes_;
 };
-
-/// Marks each face with the number of boundaries between it and the outside.
-void mark_nesting(Delaunay& mesh) {
-  for (auto face : mesh.all_face_handles()) face->info().level = kUnseen;
-  std::deque<Delaunay::Face_handle> queue{mesh.infinite_face()};
-  mesh.infinite_face()->info().level = 0;
-  while (!queue.empty()) {
-    const Delaunay::Face_handle face = queue.front();
-    queue.pop_front();
-    for (int i = 0; i < 3; ++i) {
-      const Delaunay::Face_handle next = face->neighbor(i);
-      if (next->info().level != kUnseen) continue;
-      const bool crosses = mesh.is_constrained({face, i});
-      next->info().level = face->info().level + (crosses ? 1 : 0);
-      // Faces of the same level first, so that each level is complete before the next begins.
-      if (crosses) {
-        queue.push_back(next);
-      } else {
-        queue.push_front(next);
-      }
-    }
-  }
-}
 
 bool is_convex(const std::vector<Point2>& ring) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -154,28 +112,30 @@ void split_quad(std::span<const std::uint32_t> q, const std::vector<Vec3>& verti
   }
 }
 
-Delaunay mesh_of(const Surfaces& surfaces, std::size_t surface, const Plane& plane,
-                 std::vector<Vec3>& vertices) {
-  Delaunay mesh;
+/// Rings of a surface in a triangulation.
+/// @return  the scene's vertex for each of the triangulation's
+std::vector<std::uint32_t> fill(ConstrainedDelaunay& mesh, const Surfaces& surfaces,
+                                std::size_t surface, const Plane& plane,
+                                std::vector<Vec3>& vertices) {
   Boundary boundary;
-  std::vector<Delaunay::Vertex_handle> handles;
+  std::vector<std::uint32_t> of_scene;
   for (std::size_t r = surfaces.first_ring[surface]; r < surfaces.first_ring[surface + 1]; ++r) {
-    handles.clear();
+    std::vector<ConstrainedDelaunay::Vertex> ring;
     for (const std::uint32_t v : surfaces.ring(r)) {
-      const std::size_t before = mesh.number_of_vertices();
-      const auto handle = mesh.insert(plane.flat(vertices[v]));
-      if (mesh.number_of_vertices() > before) handle->info().index = v;
-      handles.push_back(handle);
+      const Point2 p = plane.flat(vertices[v]);
+      ring.push_back(mesh.insert(p.x(), p.y()));
+      if (ring.back() == of_scene.size()) of_scene.push_back(v);
     }
-    boundary.add(handles);
+    boundary.add(ring);
   }
-  boundary.constrain(mesh);
-  for (auto vertex : mesh.finite_vertex_handles()) {
-    if (vertex->info().index != kNone) continue;
-    vertex->info().index = static_cast<std::uint32_t>(vertices.size());
-    vertices.push_back(plane.lifted(vertex->point()));
+  boundary.keep_in(mesh);
+  mesh.number_crossings();
+  while (of_scene.size() < mesh.size()) {
+    const auto [x, y] = mesh.place(static_cast<ConstrainedDelaunay::Vertex>(of_scene.size()));
+    of_scene.push_back(static_cast<std::uint32_t>(vertices.size()));
+    vertices.push_back(plane.lifted({x, y}));
   }
-  return mesh;
+  return of_scene;
 }
 
 }  // namespace
@@ -209,16 +169,10 @@ void triangulate_polygon(const Surfaces& surfaces, std::size_t surface, std::vec
   if (is_plain && outer.size() == 4 && is_convex(flat_ring(outer, plane, vertices))) {
     return split_quad(outer, vertices, triangles);
   }
-  Delaunay mesh = mesh_of(surfaces, surface, plane, vertices);
-  if (mesh.dimension() < 2) return;  // goes to and fro on a line: nothing to fill
-  mark_nesting(mesh);
-  for (auto face : mesh.finite_face_handles()) {
-    if (face->info().level % 2 == 0) continue;
-    std::array<std::uint32_t, 3> triangle{};
-    for (int i = 0; i < 3; ++i) {
-      triangle[static_cast<std::size_t>(i)] = face->vertex(i)->info().index;
-    }
-    triangles.push_back(triangle);
+  ConstrainedDelaunay mesh;
+  const std::vector<std::uint32_t> of_scene = fill(mesh, surfaces, surface, plane, vertices);
+  for (const auto& [corner, is_kept] : mesh.inside()) {
+    triangles.push_back({of_scene[corner[0]], of_scene[corner[1]], of_scene[corner[2]]});
   }
 }
 
