@@ -26,6 +26,8 @@ struct GroupFormFactors {
   std::size_t groups = 0;
   std::vector<double> area_m2;       ///< [group], of one side
   std::vector<double> value, error;  ///< the error is an estimate
+  /// [group], what of a row's 1 meets backs of faces first; none with two sides.
+  std::vector<double> to_backs;
   bool within_tolerance = true;      ///< all errors
 
   double row_sum(std::size_t from) const;
