@@ -216,6 +216,7 @@ def measure(scene, options, work):
         for name, settings in scene.tenku.items()]
     jobs = [[((program.name, label, tuple(given)), program.run) for label, given in settings]
             for program, settings in programs]
+    jobs = [[job for job in one if options.only in (None, job[0][0])] for one in jobs]
     runs = take_turns(by_turns(*jobs), options.rounds)
     truth = read_truth(scene, options.reference)
     for (program, label, _), those in runs.items():
@@ -233,7 +234,7 @@ def measure(scene, options, work):
 def draw(scene, rows, path):
     """Processor time: on a busy machine the clock tells more of the others than of these two."""
     def points(program):
-        return [(row["processor_s"], row["rms_error_pct"], row["setting"])
+        return [(float(row["processor_s"]), float(row["rms_error_pct"]), row["setting"])
                 for row in rows if row["program"] == program]
     write_chart(path, scene.title,
                 ("processor time of the whole program, in two processes or threads / s",
@@ -249,6 +250,9 @@ def main():
         parser.add_argument(f"--{name}", type=lambda p: pathlib.Path(p).resolve(), required=True)
     parser.add_argument("--scenes", default="city,room")
     parser.add_argument("--rounds", type=int, default=5, help="of each setting; those that take over 10 s of the processor run once")
+    parser.add_argument("--only", help="program or line of the chart that is timed; default: all")
+    parser.add_argument("--beside", type=pathlib.Path,
+                        help="against_radiance.csv of another run, whose rows are charted too")
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
     work = pathlib.Path(tempfile.mkdtemp(prefix="against_radiance_"))
@@ -257,6 +261,10 @@ def main():
         if scene.name not in options.scenes.split(","):
             continue
         own = list(measure(scene, options, work))
+        if options.beside:
+            with options.beside.open() as file:
+                own = [row for row in csv.DictReader(file)
+                       if row["scene"] == scene.name] + own
         draw(scene, own, options.out / scene.chart)
         rows += own
     with open(options.out / "against_radiance.csv", "w", newline="") as file:
