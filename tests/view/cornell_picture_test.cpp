@@ -120,6 +120,31 @@ TEST(CornellPicture, ByRadiosityIsThatOfPaths) {
   }
 }
 
+// Where its neighbours agree, a pixel is like them: at the feet of the blocks too, where points
+// that stood for others used to lie in the shadow.
+TEST(CornellPicture, HasNoSpecks) {
+  constexpr int kWide = 160;
+  const LitScene lit = testing_support::cornell_box(kFolder);
+  const RenderedView view = testing_support::cornell_by_radiosity(lit, kWide, 5.0, 20.0);
+  std::size_t specks = 0, smooth = 0;
+  for (int row = 1; row + 1 < kWide; ++row) {
+    for (int column = 1; column + 1 < kWide; ++column) {
+      std::vector<double> around;
+      for (int k = 0; k < 9; ++k) {
+        if (k == 4) continue;
+        around.push_back(luminance_of(view.luminance.at(column + k % 3 - 1, row + k / 3 - 1)));
+      }
+      std::sort(around.begin(), around.end());
+      // But for one at either end, which may be another speck.
+      if (!(around[1] > 0.0) || around[6] > 1.06 * around[1]) continue;
+      ++smooth;
+      specks += std::abs(luminance_of(view.luminance.at(column, row)) / around[4] - 1.0) > 0.1;
+    }
+  }
+  EXPECT_EQ(specks, 0U);
+  EXPECT_GT(smooth, std::size_t{kWide} * kWide / 4);
+}
+
 // Paths meet the lamp by chance, and are believed where none has: too dark (docs/validation.md),
 // but of the right colour.
 TEST(CornellPicture, ByPathsHasTheSameColours) {
