@@ -22,15 +22,10 @@ struct IlluminanceCommandOptions {
   SensorOptions sensors;
 };
 
-bool ends_with(const std::string& text, std::string_view ending) {
-  return text.size() >= ending.size() &&
-         text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
-}
-
 void check_request(const IlluminanceCommandOptions& options) {
   check_sensor_options(options.sensors);
-  const bool table = options.lit.out == "-" || ends_with(options.lit.out, ".csv");
-  if (!table && !ends_with(options.lit.out, ".vtp")) {
+  const bool table = options.lit.out == "-" || options.lit.out.ends_with(".csv");
+  if (!table && !options.lit.out.ends_with(".vtp")) {
     throw InputError("cannot write '" + options.lit.out + "': the ending must be .csv or .vtp");
   }
   check_can_write(options.lit.out);
@@ -38,7 +33,7 @@ void check_request(const IlluminanceCommandOptions& options) {
 
 void write_result(const IlluminanceCommandOptions& options, const LitScene& lit,
                   const PlacedSensors& placed, const IlluminanceResult& result) {
-  if (!ends_with(options.lit.out, ".vtp")) {
+  if (!options.lit.out.ends_with(".vtp")) {
     illuminance_table(placed.in_file.position, placed.in_file.normal, result.values)
         .write(options.lit.out);
     return;

@@ -94,7 +94,8 @@ class RadiosityRun {
         lit_(load_lit_scene(as_in_first_row(options.lit, rows_), context.progress)),
         mesh_(make_mesh()),
         interior_(mesh_, lit_.scene().materials,
-                  with_watch(interior_options(options, lit_, context.options))) {}
+                  with_watch(interior_options(options, lit_, context.options))),
+        sensor_daylight_(rows_.size() > 1) {}
 
   int finish() {
     if (options_.wants_sensors()) place_sensors();
@@ -123,6 +124,7 @@ class RadiosityRun {
   }
 
   InteriorOptions with_watch(InteriorOptions how) {
+    how.many_skies = rows_.size() > 1;
     if (options_.watch.empty()) return how;
     std::filesystem::create_directories(options_.watch);
     how.watch = [this](const ShotView& view) {
@@ -187,9 +189,7 @@ class RadiosityRun {
     SensorIlluminance values(sensors_.size());
     const Stopwatch watch;
     if (run.open_lux > 0.0) {
-      IlluminanceResult direct = illuminate(sensors_, lit_.engines(), daylight.source,
-                                            daylight.options, daylight.method, context_.progress);
-      values = std::move(direct.values);
+      values = sensor_daylight_.light(sensors_, daylight, context_.progress).values;
     }
     interior_.add_reflected(look_, run.light, values, context_.progress);
     sensors_s_ += watch.seconds();
@@ -296,6 +296,7 @@ class RadiosityRun {
   Interior interior_;
   Sensors in_file_, sensors_;
   InteriorSensors look_;
+  KeptDaylight sensor_daylight_;
   std::optional<CsvTable> table_;
   std::vector<LightRun> runs_;
   std::size_t missed_ = 0;

@@ -1,7 +1,9 @@
 /// Elements projected onto the disc under a hemisphere.
 #pragma once
 
-#include <cstdint>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -30,31 +32,63 @@ class DiscOutlines {
   /// Outline of a seen side, valid until the next call. May be empty.
   std::span<const PlanePoint> operator()(const SeenSide& seen);
 
-  /// Where the arc from a point of the last outline to the next crosses the line at `y`.
-  /// @param x  where a straight edge does
-  double crossing(std::size_t point, double y, double x) const;
-  /// `crossing`, as `ScanLines` takes it.
-  auto exactly() const {
-    return [this](std::size_t point, double y, double x) { return crossing(point, y, x); };
-  }
+  /// Area inside the last outline.
+  double area() const;
 
-  /// Range of y in which all outlines lie: the whole disc where they fill much of it.
+  /// Range of y.
   struct Range {
     double low, high;
   };
+  /// Of the last outline; low is above high where it is empty.
+  Range height() const;
+
+  /// Cuts the outline of a seen side: `ScanLines::spans`.
+  template <class Emit>
+  void spans(const SeenSide& seen, ScanLines& scan, const Emit& emit) {
+    const auto outline = (*this)(seen);
+    if (by_polylines_) {
+      scan.spans(outline, emit);
+    } else {
+      scan.spans(outline, emit, [this](std::size_t k, PlanePoint a, PlanePoint b) {
+        return Arc(normal_[k], b.y > a.y);
+      });
+    }
+  }
+
+  /// Range in which all outlines lie: the whole disc where they fill much of it.
   Range range();
 
  private:
-  void add_outline(std::span<const Vec3> corner);
+  /// Where an arc on which y only rises, or only falls, crosses a line. On the line x^2 + z^2 is
+  /// 1 - y^2, and on the arc n.x x + n.z z is -n.y y: one of the two places that do.
+  class Arc {
+   public:
+    Arc(Vec3 n, bool rises) {
+      square_ = n.x * n.x + n.z * n.z;
+      all_ = square_ + n.y * n.y;
+      of_y_ = -n.x * n.y / square_;
+      of_root_ = (rises ? n.z : -n.z) / square_;
+    }
+    double operator()(double y) const {
+      return of_y_ * y + of_root_ * std::sqrt(std::max(0.0, square_ - all_ * y * y));
+    }
+
+   private:
+    double square_, all_, of_y_, of_root_;
+  };
+
+  void add_edge(const Vec3& from, const Vec3& to);
   void add_polyline(Vec3 from, Vec3 to);
-  void add_arc(Vec3 from, Vec3 to, Vec3 normal);
+  void add_arc(const Vec3& from, const Vec3& to);
 
   const ElementMesh& mesh_;
   const PointView& view_;
   bool by_polylines_;
   double cos_polyline_, sin_polyline_;
+  std::vector<Vec3> direction_;  ///< of each vertex of the mesh
   std::vector<PlanePoint> point_;
   std::vector<Vec3> normal_;  ///< [point]: of the plane through the origin and the arc to the next
+  double arc_area_ = 0.0;     ///< between the arcs and the centre, those that run back negative
 };
 
 }  // namespace tenku

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/suggest.h"
+#include "core/named.h"
 #include "form_factors/form_factor_methods.h"
 
 namespace tenku {
@@ -20,12 +20,8 @@ constexpr std::array<std::pair<std::string_view, FormFactorMaker*>, 5> kMethods{
 
 constexpr int kMaximumResolution = 8192;
 
-FormFactorMaker& maker_named(std::string_view name) {
-  for (const auto& [known, make] : kMethods) {
-    if (known == name) return *make;
-  }
-  throw InputError("there is no form-factor method '" + std::string(name) + "'" +
-                   suggestion(name, form_factor_method_names()));
+FormFactorMaker* maker_named(std::string_view name) {
+  return named(name, kMethods, "form-factor method");
 }
 
 }  // namespace

@@ -67,14 +67,15 @@ class HemisphereRays : public FormFactorMethod {
     const std::vector<Vec3> direction = directions_at(position, normal);
     std::vector<std::uint32_t> element(direction.size());
     rays_.first_triangles(position, direction, element);
-    std::vector<std::uint32_t> side;
-    side.reserve(direction.size());
+    std::vector<Run> runs;
     for (std::size_t k = 0; k < direction.size(); ++k) {
       if (element[k] == RayVisibility::kNoTriangle) continue;
       const bool back = dot(direction[k], normal_[element[k]]) > 0.0;
-      side.push_back(2 * element[k] + (back ? 1U : 0U));
+      const std::uint32_t side = 2 * element[k] + (back ? 1U : 0U);
+      if (runs.empty() || runs.back().side != side) runs.push_back({side, 0});
+      ++runs.back().rays;
     }
-    return row_of(std::move(side), direction.size());
+    return row_of(std::move(runs), direction.size());
   }
 
  private:
@@ -91,14 +92,19 @@ class HemisphereRays : public FormFactorMethod {
     return direction;
   }
 
-  /// @param side  that each ray has met
-  static FormFactorRow row_of(std::vector<std::uint32_t> side, std::size_t rays) {
-    std::sort(side.begin(), side.end());
+  /// Rays one after another that meet the same side: neighbours often do.
+  struct Run {
+    std::uint32_t side, rays;
+  };
+
+  static FormFactorRow row_of(std::vector<Run> runs, std::size_t rays) {
+    std::sort(runs.begin(), runs.end(), [](Run a, Run b) { return a.side < b.side; });
     FormFactorRow row;
-    for (std::size_t begin = 0, end = 0; begin < side.size(); begin = end) {
-      while (end < side.size() && side[end] == side[begin]) ++end;
-      row.push_back({side[begin], static_cast<float>(static_cast<double>(end - begin) /
-                                                     static_cast<double>(rays))});
+    for (std::size_t begin = 0, end = 0; begin < runs.size(); begin = end) {
+      std::size_t met = 0;
+      for (; end < runs.size() && runs[end].side == runs[begin].side; ++end) met += runs[end].rays;
+      row.push_back({runs[begin].side,
+                     static_cast<float>(static_cast<double>(met) / static_cast<double>(rays))});
     }
     return row;
   }

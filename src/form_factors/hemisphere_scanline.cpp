@@ -3,6 +3,7 @@
 #include "core/random.h"
 #include "form_factors/disc_outlines.h"
 #include "form_factors/form_factor_methods.h"
+#include "form_factors/seen_parts.h"
 #include "form_factors/visible_spans.h"
 
 namespace tenku {
@@ -37,7 +38,7 @@ double unit_of(const LineSet& lines, const DiscOutlines::Range& range) {
 class LineSpans {
  public:
   LineSpans(const PointView& view, DiscOutlines& outlines, const LineSet& lines)
-      : begin_(static_cast<std::size_t>(lines.count) + 1) {
+      : part_(view.seen.size()), begin_(static_cast<std::size_t>(lines.count) + 1) {
     std::vector<std::uint32_t> line_of;
     std::vector<DiscSpan> all;
     line_of.reserve(4 * view.seen.size());
@@ -47,9 +48,12 @@ class LineSpans {
       const auto add = [&](int line, double x0, double x1) {
         line_of.push_back(static_cast<std::uint32_t>(line));
         all.push_back({x0, x1, s});
+        part_[s].whole += x1 - x0;
         ++begin_[static_cast<std::size_t>(line) + 1];
       };
-      scan.spans(outlines(view.seen[s]), add, outlines.exactly());
+      outlines.spans(view.seen[s], scan, add);
+      const auto [low, high] = outlines.height();
+      part_[s].area = outlines.area() / kPi, part_[s].low = low, part_[s].high = high;
     }
     for (std::size_t k = 1; k < begin_.size(); ++k) begin_[k] += begin_[k - 1];
     std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
@@ -62,12 +66,17 @@ class LineSpans {
     return {span_.data() + begin_[k], begin_[k + 1] - begin_[k]};
   }
 
+  /// [seen], but for what is visible.
+  std::vector<SidePart>& parts() { return part_; }
+
  private:
+  std::vector<SidePart> part_;
   std::vector<std::size_t> begin_;
   std::vector<DiscSpan> span_;
 };
 
-/// The disc measured along scan lines: spans are exact, and nearest is what is nearest.
+/// The disc measured along scan lines: spans are exact, nearest is what is nearest, and what is
+/// seen as a whole has its exact area (`row_of_parts`).
 ///
 /// Source  Doi and Itoh (see `DiscOutlines`), section 2.
 class HemisphereScanline : public FormFactorMethod {
@@ -85,9 +94,11 @@ class HemisphereScanline : public FormFactorMethod {
     if (!(range.low < range.high)) return {};
     const LineSet lines = lines_over(range, options_.resolution, key);
     LineSpans spans(view, outlines, lines);
-    VisibleSpans visible(view);
+    const std::vector<std::uint32_t> sheet = sheets_of(view);
+    VisibleSpans visible(view, sheet);
     for (int line = 0; line < lines.count; ++line) visible.add_line(lines.y(line), spans[line]);
-    return row_of(view, visible.length(), unit_of(lines, range));
+    for (std::size_t s = 0; s < sheet.size(); ++s) spans.parts()[s].visible = visible.length()[s];
+    return row_of_parts(view, spans.parts(), sheet, lines.step, unit_of(lines, range));
   }
 
  private:

@@ -41,7 +41,7 @@ class HemisphereZBuffer : public FormFactorMethod {
           return nearness.x * at(column) + of_row + nearness.z * height_[first + column];
         });
       };
-      scan.spans(outlines(view.seen[s]), fill, outlines.exactly());
+      outlines.spans(view.seen[s], scan, fill);
     }
     std::vector<double> covered(view.seen.size());
     for (const std::uint32_t item : buffer.item()) {

@@ -35,10 +35,10 @@ class ScanLines {
         crossing_(static_cast<std::size_t>(std::max(0, lines.count))) {}
 
   /// Calls `emit(line, x0, x1)` for each span of the outline, x0 < x1, line after line.
-  /// @param crossing  `crossing(k, y, x)`: where the edge from point k, which crosses the line at y
-  ///                  in x if it is straight, really does
-  template <class Emit, class Crossing>
-  void spans(std::span<const PlanePoint> outline, const Emit& emit, const Crossing& crossing) {
+  /// @param edge  `edge(k, a, b)`: of the edge from point k, which lies at a, to b, a function that
+  ///              tells for y where it crosses the line there
+  template <class Emit, class Edge>
+  void spans(std::span<const PlanePoint> outline, const Emit& emit, const Edge& edge) {
     if (outline.empty()) return;
     int low = lines_.count, high = -1;
     std::size_t k = outline.size() - 1;
@@ -49,10 +49,9 @@ class ScanLines {
       at_a = at_b;
       if (begin == end) continue;
       low = std::min(low, begin), high = std::max(high, end - 1);
-      const double slope = (b.x - a.x) / (b.y - a.y);
+      const auto x_at = edge(k, a, b);
       for (int line = begin; line < end; ++line) {
-        const double y = lines_.y(line), x = a.x + (y - a.y) * slope;
-        crossing_[static_cast<std::size_t>(line)].add(crossing(k, y, x));
+        crossing_[static_cast<std::size_t>(line)].add(x_at(lines_.y(line)));
       }
     }
     for (int line = low; line <= high; ++line) {
@@ -70,7 +69,10 @@ class ScanLines {
   /// The same for straight edges.
   template <class Emit>
   void spans(std::span<const PlanePoint> outline, const Emit& emit) {
-    spans(outline, emit, [](std::size_t, double, double x) { return x; });
+    spans(outline, emit, [](std::size_t, PlanePoint a, PlanePoint b) {
+      const double slope = (b.x - a.x) / (b.y - a.y);
+      return [a, slope](double y) { return a.x + (y - a.y) * slope; };
+    });
   }
 
  private:

@@ -30,23 +30,24 @@ Bearing reach_before(const SkySlice& right, const Bearing& from, const Bearing& 
 
 }  // namespace
 
-int append_pieces(const SensorSight& sight, Vec3 along, double low, double high,
+int append_pieces(const SensorSight& sight, Vec3 along, const Altitude& low, const Altitude& high,
                   std::vector<SeenPiece>& pieces) {
   if (!sight.rays.has_glass()) {
     pieces.push_back({low, high, 1.0});
     return 0;
   }
-  const int parts = std::max(1, static_cast<int>(std::ceil((high - low) / kPiece)));
-  const double step = (high - low) / parts;
+  const int parts = std::max(1, static_cast<int>(std::ceil((high.radians - low.radians) / kPiece)));
+  const double step = (high.radians - low.radians) / parts;
   const auto transmitted = [&](double altitude) {
     const double c = std::cos(altitude);
     return sight.rays.glass_transmission(sight.origin,
                                          {c * along.x, c * along.y, std::sin(altitude)});
   };
   for (int k = 0; k < parts; ++k) {
-    const double from = low + k * step, middle = from + 0.5 * step;
-    pieces.push_back({from, middle, transmitted(middle - kGauss * step)});
-    pieces.push_back({middle, from + step, transmitted(middle + kGauss * step)});
+    const double from = low.radians + k * step, middle = from + 0.5 * step;
+    const Altitude a = Altitude::of(from), b = Altitude::of(middle), c = Altitude::of(from + step);
+    pieces.push_back({a, b, transmitted(middle - kGauss * step)});
+    pieces.push_back({b, c, transmitted(middle + kGauss * step)});
   }
   return 2 * parts;
 }
@@ -100,8 +101,7 @@ LuxAndView OutlineGap::seen(const Bearing& bearing, Sides sides) const {
   if (!(low.sine < high.sine)) return {};
   if (!sight_.rays.has_glass()) return light.both(low, high);
   std::vector<SeenPiece> pieces;
-  rays_sent_ += static_cast<std::uint64_t>(
-      append_pieces(sight_, bearing.along, low.radians, high.radians, pieces));
+  rays_sent_ += static_cast<std::uint64_t>(append_pieces(sight_, bearing.along, low, high, pieces));
   return light_through(light, pieces);
 }
 

@@ -8,7 +8,7 @@
 
 #include "illuminance/outline_segment.h"
 #include "illuminance/slice_light.h"
-#include "visibility/ray_visibility.h"
+#include "visibility/slice_tracer.h"
 
 namespace tenku {
 
@@ -18,6 +18,7 @@ struct SkySlice {
   Vec3 along;                ///< horizontal unit vector toward it
   LuxAndView light;          ///< per radian of azimuth
   OutlineSegment low, high;  ///< what bounds the visible range
+  SliceHints hints;          ///< to what bounds it
   bool is_behind = false;    ///< wholly behind the sensor
   bool is_open = false;      ///< some sky is visible
   bool is_outlined = false;  ///< one visible range, bounded by `low` and `high` alone
@@ -32,13 +33,14 @@ struct SensorSight {
 
 /// A visible range of altitudes, with the transmittance of the panes before it.
 struct SeenPiece {
-  double low, high, transmittance;
+  Altitude low, high;
+  double transmittance;
 };
 
 /// Cuts a visible range into pieces so short that one angle through the panes stands for each (by
 /// the two-point Gauss rule on pairs); one piece in a scene without glass. Appends to `pieces` and
 /// returns the rays sent.
-int append_pieces(const SensorSight& sight, Vec3 along, double low, double high,
+int append_pieces(const SensorSight& sight, Vec3 along, const Altitude& low, const Altitude& high,
                   std::vector<SeenPiece>& pieces);
 
 /// Light through the pieces of one half-plane.

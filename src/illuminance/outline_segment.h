@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/altitude.h"
+#include "core/units.h"
 #include "core/vec3.h"
 
 namespace tenku {
@@ -69,7 +71,9 @@ class OutlineSegment {
     if (sense * across(limit.along, end) >= 0.0) return limit;
     const double ahead = end.x * from.along.x + end.y * from.along.y;
     const double scale = 1.0 / std::sqrt(end.x * end.x + end.y * end.y);
-    return {from.offset + sense * std::atan2(beside, ahead), {scale * end.x, scale * end.y, 0.0}};
+    const double angle =
+        ahead > 0.0 ? arctangent(beside / ahead) : kPi / 2.0 + arctangent(-ahead / beside);
+    return {from.offset + sense * angle, {scale * end.x, scale * end.y, 0.0}};
   }
 
   Vec3 first_, last_;

@@ -85,7 +85,10 @@ void SensorSky::double_evenly() {
     const double azimuth =
         start_ + pitch * static_cast<double>(i) + kScatter * (random_.uniform() - 0.5);
     const bool checked = effort_.checked && (!is_rare || (i / 2) % kRareCheck == 0);
-    refined[i].slice = make_slice(azimuth, checked ? checks : 0, stands_for);
+    const bool is_first = old == 0;
+    const SliceHints left = is_first ? SliceHints{} : at(i / 2).hints;
+    const SliceHints right = is_first ? SliceHints{} : at(i / 2 + 1).hints;
+    refined[i].slice = make_slice(azimuth, checked ? checks : 0, stands_for, left, right);
   }
   entry_ = std::move(refined);
   unchecked_ = false;
@@ -107,7 +110,7 @@ void SensorSky::fill_gaps() {
     const bool has_hole = gap.hole_width > kLeastHole * width && !gap.is_blind;
     const double offset = has_hole ? gap.hole_begin + random * gap.hole_width : random * width;
     refined.emplace_back();
-    refined.back().slice = make_slice(at(i).azimuth + offset, 0, 0.0);
+    refined.back().slice = make_slice(at(i).azimuth + offset, 0, 0.0, at(i).hints, at(i + 1).hints);
   }
   entry_ = std::move(refined);
 }
@@ -223,15 +226,17 @@ double SensorSky::gap_variance(std::size_t i) const {
              (miss_squared(entry_[i]) + miss_squared(entry_[(i + 1) % entry_.size()]));
 }
 
-SkySlice SensorSky::make_slice(double azimuth_rad, int checks, double weight) {
+SkySlice SensorSky::make_slice(double azimuth_rad, int checks, double weight, SliceHints before,
+                               SliceHints after) {
   SkySlice slice;
   slice.azimuth = azimuth_rad;
   slice.along = {std::sin(azimuth_rad), std::cos(azimuth_rad), 0.0};
   const SliceLight light(sight_.table, sight_.normal, azimuth_rad, slice.along);
-  const auto [low, high] = light.front();
+  const Altitude low = light.low(), high = light.high();
   slice.is_behind = light.is_behind();
   if (slice.is_behind) return slice;
-  const VisibleSlice visible = tracer_.trace(slice.along, low, high);
+  const VisibleSlice visible = tracer_.trace(slice.along, low, high, before, after);
+  slice.hints = visible.hints;
   slice.is_open = visible.count > 0;
   piece_.clear();
   for (int i = 0; i < visible.count; ++i) {
@@ -240,7 +245,7 @@ SkySlice SensorSky::make_slice(double azimuth_rad, int checks, double weight) {
         append_pieces(sight_, slice.along, range.low, range.high, piece_));
   }
   slice.light = light_through(light, piece_);
-  bound(slice, visible, low, high);
+  bound(slice, visible, low.radians, high.radians);
   if (checks > 0) check(light, checks, weight);
   return slice;
 }
@@ -253,9 +258,11 @@ void SensorSky::bound(SkySlice& slice, const VisibleSlice& visible, double low, 
     const auto& vertex = sight_.rays.soup().vertices;
     return OutlineSegment(vertex[edge.a] - sight_.origin, vertex[edge.b] - sight_.origin);
   };
-  const auto stands_at = [&](const OutlineSegment& edge, double otherwise, double found) {
-    const double altitude = edge.exists() ? std::atan(edge.slope(slice.along)) : otherwise;
-    return std::abs(altitude - found) < kSameAltitude;
+  const auto stands_at = [&](const OutlineSegment& edge, double otherwise, const Altitude& found) {
+    if (!edge.exists()) return std::abs(otherwise - found.radians) < kSameAltitude;
+    const double slope = edge.slope(slice.along);
+    return square(slope * found.cosine - found.sine) <
+           square(kSameAltitude) * (1.0 + slope * slope);
   };
   slice.low = segment(visible.low_edge);
   slice.high = segment(visible.high_edge);
@@ -280,12 +287,12 @@ void SensorSky::check(const SliceLight& light, int checks, double weight) {
     if (!(chance > 0.0)) continue;
     double claimed = 0.0;
     for (const SeenPiece& p : piece_) {
-      if (altitude >= p.low && altitude <= p.high) claimed = p.transmittance;
+      if (altitude >= p.low.radians && altitude <= p.high.radians) claimed = p.transmittance;
     }
     const bool visible = tracer_.check(altitude, claimed > 0.0);
     if (visible == (claimed > 0.0)) continue;
     const double missed = visible ? tracer_.glass_transmission(altitude) : -claimed;
-    sum = sum + (missed / chance) * light.both(a, b);
+    sum = sum + (missed / chance) * light.both(Altitude::of(a), Altitude::of(b));
   }
   sum = (weight / checks) * sum;
   checks_.lux += sum.lux;

@@ -127,8 +127,9 @@ class SensorSky {
     int known = 0;
   };
 
-  const SkySlice& at(std::size_t i) const { return entry_[i % entry_.size()].slice; }
-  std::size_t before(std::size_t i) const { return (i + entry_.size() - 1) % entry_.size(); }
+  /// @param i  up to the number of slices, which is the first one again
+  const SkySlice& at(std::size_t i) const { return entry_[i < entry_.size() ? i : 0].slice; }
+  std::size_t before(std::size_t i) const { return i > 0 ? i - 1 : entry_.size() - 1; }
   double width_after(std::size_t i) const;
   GapLight gap_light(std::size_t i);
   Test test_of(std::size_t i);
@@ -139,7 +140,8 @@ class SensorSky {
   void double_evenly();
   void fill_gaps();
   bool has_sure_claims() const;
-  SkySlice make_slice(double azimuth_rad, int checks, double weight);
+  SkySlice make_slice(double azimuth_rad, int checks, double weight, SliceHints before = {},
+                      SliceHints after = {});
   void trace_again();
   void bound(SkySlice& slice, const VisibleSlice& visible, double low, double high) const;
   void check(const SliceLight& light, int checks, double weight);

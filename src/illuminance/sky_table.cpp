@@ -36,6 +36,7 @@ SkyTable::SkyTable(const SkyModel& sky)
     : columns_(count_for(360.0, sky.detail().in_degrees(), 360, 8192)),
       rows_(count_for(90.0, sky.detail().in_degrees(), 90, 2048)),
       row_rad_(kHalfPi / rows_),
+      rows_per_rad_(rows_ / kHalfPi),
       node_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_ + 1) *
             kNodeFloats) {
   parallel_for(static_cast<std::size_t>(columns_), 8, [&](IndexRange range) {
@@ -82,16 +83,13 @@ void SkyTable::fill_column(const SkyModel& sky, int column) {
 }
 
 SkyTable::Column SkyTable::column(double azimuth_rad) const {
+  if (columns_ == 1) return {this, node_.data(), node_.data(), 0.0};
   const double turns = azimuth_rad / (2.0 * kPi);
   const double place = (turns - std::floor(turns)) * columns_;
   const int left = std::min(static_cast<int>(place), columns_ - 1);
   const std::size_t pitch = static_cast<std::size_t>(rows_ + 1) * kNodeFloats;
-  Column result;
-  result.table_ = this;
-  result.left_ = &node_[static_cast<std::size_t>(left) * pitch];
-  result.right_ = &node_[static_cast<std::size_t>((left + 1) % columns_) * pitch];
-  result.weight_ = place - left;
-  return result;
+  return {this, &node_[static_cast<std::size_t>(left) * pitch],
+          &node_[static_cast<std::size_t>((left + 1) % columns_) * pitch], place - left};
 }
 
 SliceMoments SkyTable::Column::to(double altitude_rad) const {
@@ -101,10 +99,15 @@ SliceMoments SkyTable::Column::to(double altitude_rad) const {
     return {left_[top] + weight_ * (right_[top] - left_[top]),
             left_[top + 2] + weight_ * (right_[top + 2] - left_[top + 2])};
   }
-  const double place = altitude_rad / table_->row_rad_;
+  const double place = altitude_rad * table_->rows_per_rad_;
   const int row = std::min(static_cast<int>(place), table_->rows_ - 1);
   const double t = place - row;
   const std::size_t at = static_cast<std::size_t>(row) * kNodeFloats;
+  if (left_ == right_) {
+    const float* node = left_ + at;
+    return {hermite(t, node[0], node[1], node[4], node[5]),
+            hermite(t, node[2], node[3], node[6], node[7])};
+  }
   const auto blend = [&](std::size_t k) {
     return left_[at + k] + weight_ * (right_[at + k] - left_[at + k]);
   };

@@ -44,6 +44,8 @@ class SkyTable {
 
    private:
     friend class SkyTable;
+    Column(const SkyTable* table, const float* left, const float* right, double weight)
+        : table_(table), left_(left), right_(right), weight_(weight) {}
     const SkyTable* table_;
     const float *left_, *right_;
     double weight_;
@@ -62,7 +64,7 @@ class SkyTable {
   void drop_equal_columns();
 
   int columns_, rows_;
-  double row_rad_;
+  double row_rad_, rows_per_rad_;
   std::vector<float> node_;  ///< [column][row][4]; one column if all are alike
   double horizontal_lux_ = 0.0;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/altitude.h"
 #include "illuminance/sky_table.h"
 
 namespace tenku {
@@ -19,29 +20,6 @@ struct LuxAndView {
     return {a.lux - b.lux, a.view - b.view};
   }
   friend constexpr LuxAndView operator*(double k, LuxAndView a) { return {k * a.lux, k * a.view}; }
-};
-
-/// An altitude with its sine and cosine.
-struct Altitude {
-  double radians = 0.0, sine = 0.0, cosine = 1.0;
-
-  static Altitude of(double radians) { return {radians, std::sin(radians), std::cos(radians)}; }
-  /// From its tangent; error below 2e-8.
-  ///
-  /// Source   M. Abramowitz, I. Stegun, "Handbook of Mathematical Functions", 4.4.49.
-  static Altitude of_slope(double slope) {
-    const double size = std::abs(slope);
-    const bool steep = size > 1.0;
-    const double t = steep ? 1.0 / size : size, u = t * t;
-    double sum = 0.0028662257;
-    for (const double coefficient : {-0.0161657367, 0.0429096138, -0.0752896400, 0.1065626393,
-                                     -0.1420889944, 0.1999355085, -0.3333314528, 1.0}) {
-      sum = sum * u + coefficient;
-    }
-    const double angle = std::copysign(steep ? kPi / 2.0 - t * sum : t * sum, slope);
-    const double cosine = 1.0 / std::sqrt(1.0 + slope * slope);
-    return {angle, slope * cosine, cosine};
-  }
 };
 
 /// The unobstructed sky in the half-plane at one azimuth, as a surface receives it.
@@ -60,9 +38,9 @@ class SliceLight {
   /// Altitudes in front of the surface.
   FrontRange front() const { return front_; }
   bool is_behind() const { return !(front_.low < front_.high); }
-  Altitude low() const { return front_.low == 0.0 ? Altitude{} : Altitude::of(front_.low); }
+  Altitude low() const { return Altitude::of(front_.low); }
   Altitude high() const {
-    return front_.high == kPi / 2.0 ? Altitude{kPi / 2.0, 1.0, 0.0} : Altitude::of(front_.high);
+    return front_.high == kPi / 2.0 ? Altitude::zenith() : Altitude::of(front_.high);
   }
 
   double view(const Altitude& from, const Altitude& to) const {
@@ -73,9 +51,6 @@ class SliceLight {
   }
   LuxAndView both(const Altitude& from, const Altitude& to) const {
     return {lux(from.radians, to.radians), view(from, to)};
-  }
-  LuxAndView both(double from, double to) const {
-    return both(Altitude::of(from), Altitude::of(to));
   }
 
   /// What checks are drawn in proportion to: skylight, or the view of a uniform sky without one.

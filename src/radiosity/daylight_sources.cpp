@@ -1,7 +1,5 @@
 #include "radiosity/daylight_sources.h"
 
-#include "illuminance/illuminate.h"
-
 namespace tenku {
 namespace {
 
@@ -40,12 +38,12 @@ OpenSensors open_sensors(const ElementMesh& mesh, const SidePoints& points,
 
 DaylightOnSides daylight_on_sides(const ElementMesh& mesh, const SidePoints& points,
                                   std::span<const std::uint8_t> is_open,
-                                  const DaylightMethod& daylight, Progress& progress) {
+                                  const DaylightMethod& daylight, KeptDaylight& kept,
+                                  Progress& progress) {
   DaylightOnSides result(points.size(), mesh.sides());
   const OpenSensors open = open_sensors(mesh, points, is_open);
   if (open.sensors.size() == 0) return result;
-  IlluminanceResult found = illuminate(open.sensors, daylight.engines, daylight.source,
-                                       daylight.options, daylight.method, progress);
+  IlluminanceResult found = kept.light(open.sensors, daylight, progress);
   const SensorIlluminance& lit = found.values;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::uint32_t k = open.of_point[i];

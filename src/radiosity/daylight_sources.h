@@ -7,12 +7,10 @@
 
 #include "core/finding.h"
 #include "core/progress.h"
-#include "illuminance/daylight_source.h"
-#include "illuminance/planned_light.h"
 #include "illuminance/sensor.h"
 #include "meshing/element_mesh.h"
+#include "radiosity/kept_daylight.h"
 #include "radiosity/side_points.h"
-#include "visibility/engines.h"
 
 namespace tenku {
 
@@ -29,21 +27,15 @@ struct DaylightOnSides {
       : points(point_count), lux(sides), middle_lux(sides) {}
 };
 
-/// How direct light is found.
-struct DaylightMethod {
-  const Engines& engines;
-  const DaylightSource& source;
-  IlluminanceOptions options;  ///< no bounces
-  LightMethod method;
-};
-
 /// Sensors are the corners and the middles of elements. The mean of a side is a quarter of the mean
 /// of its corners and three quarters of its middle: exact for quadratic polynomials.
 ///
 /// @param is_open  [point], whether sun or sky may reach it: others get nothing, and cost nothing
+/// @param kept     of the same mesh and open points
 /// @throws as `illuminate`
 DaylightOnSides daylight_on_sides(const ElementMesh& mesh, const SidePoints& points,
                                   std::span<const std::uint8_t> is_open,
-                                  const DaylightMethod& daylight, Progress& progress);
+                                  const DaylightMethod& daylight, KeptDaylight& kept,
+                                  Progress& progress);
 
 }  // namespace tenku

@@ -94,7 +94,8 @@ Interior::Interior(const ElementMesh& mesh, const std::vector<Material>& materia
       method_(form_factor_method(options.form_factors, mesh, options.shot)),
       rows_(mesh, *method_, {.lift_m = options.lift_m, .most_bytes = options.most_bytes / 2}),
       gather_(mesh, points_.sensors, corner_options(options)),
-      emitters_(mesh, points_, surfaces_, options.shot.seed) {
+      emitters_(mesh, points_, surfaces_, options.shot.seed),
+      daylight_(options.many_skies) {
   if (!(options.tolerance_pct > 0.0 && options.tolerance_pct <= 100.0)) {
     throw InputError("tolerance " + std::to_string(options.tolerance_pct) +
                      " is not in (0, 100] percent");
@@ -170,7 +171,7 @@ InteriorLight Interior::light(const LightRequest& request, Progress& progress) {
     DaylightMethod daylight = *request.daylight;
     daylight.options.tolerance_pct =
         std::max(daylight.options.tolerance_pct, mesh_tolerance_pct(options_));
-    direct = daylight_on_sides(mesh_, points_, is_open, daylight, progress);
+    direct = daylight_on_sides(mesh_, points_, is_open, daylight, daylight_, progress);
     times_.daylight_s += watch.seconds();
     light.findings.insert(light.findings.end(), direct.findings.begin(), direct.findings.end());
   }

@@ -35,6 +35,7 @@ struct InteriorOptions {
   std::size_t most_shots = 0;                      ///< 0: as many as it takes
   std::size_t most_bytes = std::size_t{2} << 30U;  ///< of form factors that are kept
   double lift_m = 1e-5;
+  bool many_skies = false;  ///< keeps what of daylight serves other skies
   std::function<void(const ShotView&)> watch;
 };
 
@@ -104,7 +105,7 @@ class Interior {
   const SurfaceLight& surfaces() const { return surfaces_; }
   const InteriorTimes& times() const { return times_; }
   /// Bytes of form factors that are kept.
-  std::size_t bytes() const { return rows_.store().bytes() + gather_.bytes(); }
+  std::size_t bytes() const { return rows_.store().bytes() + gather_.bytes() + daylight_.bytes(); }
 
  private:
   const std::vector<std::uint8_t>& open_points(Progress& progress);
@@ -127,6 +128,7 @@ class Interior {
   PatchRows rows_;
   PointGather gather_;
   EmitterLight emitters_;
+  KeptDaylight daylight_;
   std::optional<std::vector<std::uint8_t>> is_open_;  ///< [point], once it is known
   std::vector<std::uint8_t> lamps_known_;             ///< [point], for `lamps_`
   LampsOnMesh lamps_;

@@ -21,7 +21,8 @@ class Refinement {
   Refinement(const ElementMesh& mesh, const SurfaceLight& surfaces, std::span<const Rgb> direct)
       : mesh_(mesh), surfaces_(surfaces), direct_(direct) {
     expects(direct.size() == mesh.sides(), "direct light is known on every side");
-    side_.resize(mesh.sides());
+    received_.resize(mesh.sides());
+    first_unshot_.resize(mesh.sides());
     element_.resize(mesh.size());
     unshot_lm_.resize(2 * mesh.patches());
     for (std::size_t p = 0; p < mesh.patches(); ++p) add_patch(p);
@@ -40,21 +41,25 @@ class Refinement {
     return {order_.begin(), last};
   }
 
+  /// Sides of a patch follow one another in a row, and are of one material: what they send is added
+  /// up before it is stored.
   void shoot(std::uint32_t patch_side, const FormFactorRow& row) {
     const Rgb flux = take_unshot(patch_side);
-    double arrived = 0.0;
+    std::size_t receiver = 0;
+    double arrived = 0.0, at_receiver = 0.0;
     for (const FormFactor& f : row) {
-      const Receiver& element = element_[f.side / 2];
-      SideState& side = side_[f.side];
-      const Rgb lux = (f.value * element.per_m2) * flux;
-      const Rgb sent = element.reflectance * lux;
-      side.received = side.received + lux;
-      side.unshot = side.unshot + sent;
-      const double sent_lm = element.area_m2 * luminance_of(sent);
-      unshot_lm_[2 * element.patch + f.side % 2] += sent_lm;
-      total_unshot_lm_ += sent_lm;
-      arrived += f.value;
+      const Element& element = element_[f.side / 2];
+      const std::size_t its_patch = 2 * std::size_t{element.patch} + f.side % 2;
+      if (its_patch != receiver) {
+        add_unshot(receiver, at_receiver, flux);
+        arrived += at_receiver;
+        receiver = its_patch, at_receiver = 0.0;
+      }
+      received_[f.side] = received_[f.side] + (f.value * element.per_m2) * flux;
+      at_receiver += f.value;
     }
+    add_unshot(receiver, at_receiver, flux);
+    arrived += at_receiver;
     const double lm = luminance_of(flux);
     received_lm_ += arrived * lm;
     escaped_lm_ += (1.0 - arrived) * lm;
@@ -72,11 +77,11 @@ class Refinement {
 
   SideRadiosity sides() const {
     SideRadiosity sides;
+    sides.received = received_;
     for (std::size_t s = 0; s < mesh_.sides(); ++s) {
-      sides.received.push_back(side_[s].received);
-      sides.unshot.push_back(side_[s].unshot);
+      sides.unshot.push_back(unshot(s));
       sides.radiosity.push_back(surfaces_.emission_lm_m2[s / 2] +
-                                surfaces_.reflectance[s / 2] * (direct_[s] + side_[s].received));
+                                surfaces_.reflectance[s / 2] * (direct_[s] + received_[s]));
     }
     return sides;
   }
@@ -87,7 +92,7 @@ class Refinement {
     double area = 0.0;
     for (std::size_t s = 0; s < mesh_.sides(); ++s) {
       const std::size_t e = s / 2;
-      flux = flux + surfaces_.area_m2[e] * side_[s].unshot;
+      flux = flux + surfaces_.area_m2[e] * unshot(s);
       weighted = weighted + surfaces_.area_m2[e] * surfaces_.reflectance[e];
       area += surfaces_.area_m2[e];
     }
@@ -102,46 +107,54 @@ class Refinement {
     for (std::size_t s = 0; s < mesh_.sides(); ++s) {
       const std::size_t e = s / 2;
       const double area = surfaces_.area_m2[e];
-      const Rgb rho = surfaces_.reflectance[e], lux = direct_[s] + side_[s].received;
+      const Rgb rho = surfaces_.reflectance[e], lux = direct_[s] + received_[s];
       b.emitted_lm += area * luminance_of(surfaces_.emission_lm_m2[e] + direct_[s]);
       b.absorbed_lm += area * luminance_of(Rgb{1.0 - rho.r, 1.0 - rho.g, 1.0 - rho.b} * lux);
-      b.unshot_lm += area * luminance_of(side_[s].unshot);
+      b.unshot_lm += area * luminance_of(unshot(s));
     }
     return b;
   }
 
  private:
-  /// What the inner loop needs of a side and of an element, side by side in memory.
-  struct SideState {
-    Rgb received, unshot;
+  /// What the inner loop needs of an element, side by side in memory.
+  struct Element {
+    double per_m2 = 0.0;
+    std::uint32_t patch = 0;
   };
-  struct Receiver {
-    Rgb reflectance;
-    double area_m2 = 0.0, per_m2 = 0.0;
-    std::size_t patch = 0;
-  };
+
+  Rgb unshot(std::size_t side) const {
+    return first_unshot_[side] + surfaces_.reflectance[side / 2] * received_[side];
+  }
 
   void add_patch(std::size_t patch) {
     for (std::size_t e = mesh_.patch_begin[patch]; e < mesh_.patch_begin[patch + 1]; ++e) {
       const double area = surfaces_.area_m2[e];
-      element_[e] = {surfaces_.reflectance[e], area, 1.0 / area, patch};
+      element_[e] = {1.0 / area, static_cast<std::uint32_t>(patch)};
       for (const std::size_t face : {0U, 1U}) {
         const std::size_t s = 2 * e + face;
-        side_[s].unshot = surfaces_.emission_lm_m2[e] + surfaces_.reflectance[e] * direct_[s];
+        first_unshot_[s] = surfaces_.emission_lm_m2[e] + surfaces_.reflectance[e] * direct_[s];
         received_lm_ += area * luminance_of(direct_[s]);
         emitted_lm_ += area * luminance_of(direct_[s] + surfaces_.emission_lm_m2[e]);
-        unshot_lm_[2 * patch + face] += area * luminance_of(side_[s].unshot);
+        unshot_lm_[2 * patch + face] += area * luminance_of(unshot(s));
       }
     }
+  }
+
+  /// @param arrived  of `flux`
+  void add_unshot(std::size_t patch_side, double arrived, Rgb flux) {
+    const Rgb reflectance = surfaces_.reflectance[mesh_.patch_begin[patch_side / 2]];
+    const double lm = arrived * luminance_of(reflectance * flux);
+    unshot_lm_[patch_side] += lm;
+    total_unshot_lm_ += lm;
   }
 
   Rgb take_unshot(std::uint32_t patch_side) {
     Rgb flux;
     const std::size_t patch = patch_side / 2;
     for (std::size_t e = mesh_.patch_begin[patch]; e < mesh_.patch_begin[patch + 1]; ++e) {
-      Rgb& unshot = side_[2 * e + patch_side % 2].unshot;
-      flux = flux + surfaces_.area_m2[e] * unshot;
-      unshot = {};
+      const std::size_t side = 2 * e + patch_side % 2;
+      flux = flux + surfaces_.area_m2[e] * unshot(side);
+      first_unshot_[side] = -1.0 * (surfaces_.reflectance[e] * received_[side]);
     }
     total_unshot_lm_ -= unshot_lm_[patch_side];
     unshot_lm_[patch_side] = 0.0;
@@ -151,8 +164,10 @@ class Refinement {
   const ElementMesh& mesh_;
   const SurfaceLight& surfaces_;
   std::span<const Rgb> direct_;
-  std::vector<SideState> side_;    ///< [element side]
-  std::vector<Receiver> element_;  ///< [element]
+  std::vector<Rgb> received_;  ///< [element side], lux from other sides
+  std::vector<Rgb>
+      first_unshot_;  ///< [element side], and so much more as is reflected of `received_`
+  std::vector<Element> element_;
   std::vector<double> unshot_lm_;  ///< [patch side]
   std::vector<std::uint32_t> order_;
   double total_unshot_lm_ = 0.0, emitted_lm_ = 0.0, received_lm_ = 0.0, escaped_lm_ = 0.0;

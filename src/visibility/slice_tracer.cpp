@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace tenku {
 namespace {
@@ -16,16 +17,17 @@ constexpr double kBeyond = 1e-5;    // radians past an outline at which the next
 
 }  // namespace
 
-void VisibleSlice::remove(double low, double high) {
-  if (!(high > low)) return;
+void VisibleSlice::remove(const Altitude& low, const Altitude& high) {
+  if (!(high.radians > low.radians)) return;
   VisibleSlice kept;
-  const auto keep = [&](double a, double b) {
-    if (b > a && kept.count < kMaximum) kept.range[static_cast<std::size_t>(kept.count++)] = {a, b};
+  const auto keep = [&](const Altitude& a, const Altitude& b) {
+    if (!(b.radians > a.radians) || kept.count == kMaximum) return;
+    kept.range[static_cast<std::size_t>(kept.count++)] = {a, b};
   };
   for (int i = 0; i < count; ++i) {
     const auto [a, b] = range[static_cast<std::size_t>(i)];
-    keep(a, std::min(b, low));   // what lies below the part taken away
-    keep(std::max(a, high), b);  // and above
+    keep(a, b.radians < low.radians ? b : low);    // what lies below the part taken away
+    keep(a.radians > high.radians ? a : high, b);  // and above
   }
   count = kept.count;
   range = kept.range;
@@ -33,32 +35,28 @@ void VisibleSlice::remove(double low, double high) {
 
 SliceTracer::SliceTracer(const RayVisibility& rays, Vec3 origin) : rays_(rays), origin_(origin) {}
 
-Vec3 SliceTracer::direction(double altitude_rad) const {
-  if (altitude_rad == 0.0) return plane_.along;
-  const double c = std::cos(altitude_rad), s = std::sin(altitude_rad);
-  return {c * plane_.along.x, c * plane_.along.y, s};
+Vec3 SliceTracer::direction(const Altitude& altitude) const {
+  return {altitude.cosine * plane_.along.x, altitude.cosine * plane_.along.y, altitude.sine};
 }
 
-double SliceTracer::across(std::uint32_t vertex) const {
-  const Vec3& v = rays_.soup().vertices[vertex];
-  return (v.x - origin_.x) * plane_.across.x + (v.y - origin_.y) * plane_.across.y;
+SliceTracer::Corner SliceTracer::corner(std::uint32_t vertex) const {
+  const Vec3 at = rays_.soup().vertices[vertex] - origin_;
+  return {at, at.x * plane_.across.x + at.y * plane_.across.y};
 }
 
 bool SliceTracer::crosses(std::uint32_t triangle) const {
-  const auto& [a, b, c] = rays_.soup().triangles[triangle];
-  const bool sa = across(a) >= 0.0, sb = across(b) >= 0.0, sc = across(c) >= 0.0;
-  if (sa == sb && sb == sc) return false;
+  const auto& corners = rays_.soup().triangles[triangle];
+  const Corner a = corner(corners[0]), b = corner(corners[1]), c = corner(corners[2]);
+  if (!parted(a, b) && !parted(b, c)) return false;
   // Cut by the whole plane; the slice is the half of it in front.
-  return (sa != sb && edge_point(a, b).r > 0.0) || (sb != sc && edge_point(b, c).r > 0.0) ||
-         (sc != sa && edge_point(c, a).r > 0.0);
+  return (parted(a, b) && edge_point(a, b).r > 0.0) || (parted(b, c) && edge_point(b, c).r > 0.0) ||
+         (parted(c, a) && edge_point(c, a).r > 0.0);
 }
 
-SliceTracer::PlanePoint SliceTracer::edge_point(std::uint32_t a, std::uint32_t b) const {
-  const double sa = across(a), sb = across(b);
-  const double t = sa / (sa - sb);
-  const Vec3 &p = rays_.soup().vertices[a], &q = rays_.soup().vertices[b];
-  const double x = p.x + t * (q.x - p.x) - origin_.x, y = p.y + t * (q.y - p.y) - origin_.y;
-  return {x * plane_.along.x + y * plane_.along.y, p.z + t * (q.z - p.z) - origin_.z};
+SliceTracer::PlanePoint SliceTracer::edge_point(const Corner& a, const Corner& b) const {
+  const double t = a.side / (a.side - b.side);
+  const double x = a.at.x + t * (b.at.x - a.at.x), y = a.at.y + t * (b.at.y - a.at.y);
+  return {x * plane_.along.x + y * plane_.along.y, a.at.z + t * (b.at.z - a.at.z)};
 }
 
 SliceTracer::Outline SliceTracer::follow(std::uint32_t triangle, int sense) const {
@@ -67,12 +65,14 @@ SliceTracer::Outline SliceTracer::follow(std::uint32_t triangle, int sense) cons
   const auto turn = [&](PlanePoint p, PlanePoint q) { return sense * (p.r * q.z - p.z * q.r); };
   unsigned edge = 0;
   PlanePoint best{};
+  Corner from, to;  // of the edge
   bool found = false;
   for (unsigned e = 0; e < 3; ++e) {
-    const std::uint32_t a = soup.triangles[triangle][e], b = soup.triangles[triangle][(e + 1) % 3];
-    if ((across(a) >= 0.0) == (across(b) >= 0.0)) continue;
+    const Corner a = corner(soup.triangles[triangle][e]);
+    const Corner b = corner(soup.triangles[triangle][(e + 1) % 3]);
+    if (!parted(a, b)) continue;
     const PlanePoint p = edge_point(a, b);
-    if (!found || turn(best, p) > 0.0) best = p, edge = e, found = true;
+    if (!found || turn(best, p) > 0.0) best = p, edge = e, from = a, to = b, found = true;
   }
   for (int step = 0; step < kMostSteps; ++step) {
     if (best.r <= 0.0) break;  // over the zenith
@@ -81,17 +81,20 @@ SliceTracer::Outline SliceTracer::follow(std::uint32_t triangle, int sense) cons
     const std::uint32_t next = across_edge / 3;
     const unsigned entry = across_edge % 3;
     const auto& corners = soup.triangles[next];
-    const std::uint32_t a = corners[entry], b = corners[(entry + 1) % 3],
-                        c = corners[(entry + 2) % 3];
-    const bool beside_a = (across(a) >= 0.0) == (across(c) >= 0.0);
-    const PlanePoint p = beside_a ? edge_point(b, c) : edge_point(c, a);
+    // Surfaces may have vertices of their own at the same place.
+    if (soup.vertices[corners[entry]] - origin_ != from.at) std::swap(from, to);
+    const Corner third = corner(corners[(entry + 2) % 3]);
+    const bool beside_from = !parted(from, third);
+    const PlanePoint p = beside_from ? edge_point(to, third) : edge_point(third, from);
     if (!(turn(best, p) > 0.0)) break;
     best = p;
     triangle = next;
-    edge = beside_a ? (entry + 1) % 3 : (entry + 2) % 3;
+    edge = beside_from ? (entry + 1) % 3 : (entry + 2) % 3;
+    (beside_from ? from : to) = third;
   }
-  const double altitude =
-      best.r <= 0.0 ? (best.z > 0.0 ? kHalfPi : 0.0) : std::atan2(best.z, best.r);
+  const Altitude altitude = best.r > 0.0   ? Altitude::of_slope(best.z / best.r)
+                            : best.z > 0.0 ? Altitude::zenith()
+                                           : Altitude{};
   const auto& corners = soup.triangles[triangle];
   return {altitude,
           triangle,
@@ -108,32 +111,37 @@ std::uint32_t SliceTracer::cut_near(std::uint32_t triangle) const {
   return kNone;
 }
 
-double SliceTracer::find_end(double start, double limit, int sense, End& end) {
+Altitude SliceTracer::find_end(const Altitude& start, const Altitude& limit, int sense, End& end,
+                               const std::array<std::uint32_t, 2>& hints) {
   // The first ray leaves a little higher: along the ground it would meet the very feet of things,
   // which rounding may miss.
-  double at = start, beyond = kBeyond, step_out = kBeyond;
+  Altitude at = start;
+  double beyond = kBeyond, step_out = kBeyond;
   end.edge = {};
-  const auto passed = [&](double altitude) { return sense * (altitude - limit) >= 0.0; };
-  const std::uint32_t known = cut_near(end.hint);
-  if (known != kNone) {
+  const auto passed = [&](const Altitude& a) { return sense * (a.radians - limit.radians) >= 0.0; };
+  const auto try_hint = [&](std::uint32_t hint) {
+    const std::uint32_t known = cut_near(hint);
+    if (known == kNone) return;
     const Outline outline = follow(known, sense);
+    if (!(sense * (outline.altitude.radians - at.radians) > 0.0)) return;
     // It bounds this slice too only if it hides all from the start on.
-    const bool reaches_back = sense * (follow(known, -sense).altitude - at) <= kTouching;
-    if (reaches_back && sense * (outline.altitude - at) > 0.0) {
-      at = outline.altitude;
-      beyond = kBeyond;
-      end = {known, outline.edge};
-    }
-  }
+    if (sense * (follow(known, -sense).altitude.radians - start.radians) > kTouching) return;
+    at = outline.altitude;
+    end = {known, outline.edge};
+  };
+  const std::uint32_t last = end.hint;
+  try_hint(last);
+  if (hints[0] != last) try_hint(hints[0]);
+  if (hints[1] != last && hints[1] != hints[0]) try_hint(hints[1]);
   for (int climb = 0; climb < kMostClimbs && !passed(at); ++climb) {
     ++rays_sent_;
-    const auto hit = rays_.first_hit(origin_, direction(at + sense * beyond));
+    const Altitude probed = at.turned(sense * beyond);
+    const auto hit = rays_.first_hit(origin_, direction(probed));
     if (!hit) return at;
-    const double probed = at + sense * beyond;
     at = probed;
     if (crosses(hit->triangle)) {
       const Outline outline = follow(hit->triangle, sense);
-      if (sense * (outline.altitude - probed) > 0.0) {
+      if (sense * (outline.altitude.radians - probed.radians) > 0.0) {
         at = outline.altitude;
         step_out = kBeyond + 2.0 * rays_.lift_m() / std::max(outline.distance, 1e-3);
         end = {outline.triangle, outline.edge};
@@ -154,20 +162,26 @@ bool SliceTracer::zenith_is_open() {
   return zenith_ == 1;
 }
 
-VisibleSlice SliceTracer::trace(Vec3 along, double low, double high) {
+VisibleSlice SliceTracer::trace(Vec3 along, const Altitude& low, const Altitude& high,
+                                SliceHints before, SliceHints after) {
   plane_ = {along, {along.y, -along.x, 0.0}};
   VisibleSlice slice;
-  if (!(high > low)) return slice;
-  const double bottom = find_end(low, high, +1, low_end_);
-  if (!(bottom < high)) return slice;
-  const bool top_is_open = high >= kHalfPi && zenith_is_open();
+  if (!(high.radians > low.radians)) return slice;
+  const Altitude bottom =
+      find_end(low, high, +1, low_end_, {before.low_triangle, after.low_triangle});
+  slice.hints.low_triangle = low_end_.hint;
+  if (!(bottom.radians < high.radians)) return slice;
+  const bool top_is_open = high.radians >= kHalfPi && zenith_is_open();
   if (top_is_open) high_end_.edge = {};
-  const double top = top_is_open ? high : find_end(high, bottom, -1, high_end_);
-  if (!(top > bottom)) return slice;
+  const Altitude top = top_is_open ? high
+                                   : find_end(high, bottom, -1, high_end_,
+                                              {before.high_triangle, after.high_triangle});
+  if (!(top.radians > bottom.radians)) return slice;
   slice.count = 1;
   slice.range[0] = {bottom, top};
   slice.low_edge = low_end_.edge;
   slice.high_edge = high_end_.edge;
+  slice.hints = {low_end_.hint, high_end_.hint};
   for (int i = 0; i < floating_count_; ++i) {
     std::uint32_t& triangle = floating_[static_cast<std::size_t>(i)];
     const std::uint32_t cut = cut_near(triangle);
@@ -180,7 +194,7 @@ VisibleSlice SliceTracer::trace(Vec3 along, double low, double high) {
 
 double SliceTracer::glass_transmission(double altitude_rad) {
   ++rays_sent_;
-  return rays_.glass_transmission(origin_, direction(altitude_rad));
+  return rays_.glass_transmission(origin_, direction(Altitude::of(altitude_rad)));
 }
 
 void SliceTracer::remember(std::uint32_t triangle) {
@@ -194,8 +208,9 @@ void SliceTracer::remember(std::uint32_t triangle) {
 
 bool SliceTracer::check(double altitude_rad, bool claimed) {
   ++rays_sent_;
-  if (!claimed) return !rays_.is_occluded(origin_, direction(altitude_rad));
-  const auto hit = rays_.first_hit(origin_, direction(altitude_rad));
+  const Vec3 toward = direction(Altitude::of(altitude_rad));
+  if (!claimed) return !rays_.is_occluded(origin_, toward);
+  const auto hit = rays_.first_hit(origin_, toward);
   if (!hit) return true;
   if (crosses(hit->triangle)) remember(hit->triangle);
   return false;

@@ -4,14 +4,14 @@
 #include <array>
 #include <cstdint>
 
+#include "core/altitude.h"
 #include "core/vec3.h"
 #include "visibility/ray_visibility.h"
 
 namespace tenku {
 
-/// A range of altitudes, in radians.
 struct AltitudeRange {
-  double low = 0.0, high = 0.0;
+  Altitude low, high;
 };
 
 /// An edge of the mesh that bounds the visible sky, by its two vertices; none where the bound is
@@ -22,23 +22,29 @@ struct OutlineEdge {
   friend constexpr bool operator==(OutlineEdge, OutlineEdge) = default;
 };
 
+/// Triangles that bound the sky of a slice, for slices beside it to follow first.
+struct SliceHints {
+  std::uint32_t low_triangle = MeshAdjacency::kNone, high_triangle = MeshAdjacency::kNone;
+};
+
 /// Altitudes at which the sky shows in one vertical half-plane, in rising order.
 struct VisibleSlice {
   static constexpr int kMaximum = 8;
   int count = 0;
   std::array<AltitudeRange, kMaximum> range;
   OutlineEdge low_edge, high_edge;
+  SliceHints hints;
 
   /// Takes the part between `low` and `high` away. What no longer fits is dropped.
-  void remove(double low, double high);
+  void remove(const Altitude& low, const Altitude& high);
 };
 
 /// Follows outlines in vertical half-planes through one point.
 ///
 /// A ray finds a triangle that hides the sky; from there the mesh itself is followed in the
 /// plane, from triangle to neighbour, until it turns back: that is where its outline stands,
-/// exactly. The next ray is sent just beyond. Most slices need one or two rays, because the
-/// triangles that bounded the last slice are followed first.
+/// exactly. The next ray is sent just beyond. Triangles that bounded the last slice, and those
+/// beside this one, are followed first: what they hide needs no ray.
 ///
 /// The result is a claim, not a proof: something that floats between the two ends of the visible
 /// range is not seen by it. `check` sends a ray at an altitude of the caller's choice and tells
@@ -52,7 +58,9 @@ class SliceTracer {
 
   /// Visible altitudes in [low, high] toward `along`, a horizontal unit vector, with
   /// 0 <= low <= high <= pi/2.
-  VisibleSlice trace(Vec3 along, double low, double high);
+  /// @param before, after  what bounds slices on either side, where that is known
+  VisibleSlice trace(Vec3 along, const Altitude& low, const Altitude& high, SliceHints before = {},
+                     SliceHints after = {});
 
   /// Whether the sky shows at `altitude`, in the azimuth last traced. `claimed` is what `trace`
   /// said there.
@@ -75,8 +83,13 @@ class SliceTracer {
   struct PlanePoint {
     double r, z;
   };
+  /// A vertex seen from the origin, and how far beside the plane it lies.
+  struct Corner {
+    Vec3 at;
+    double side = 0.0;
+  };
   struct Outline {
-    double altitude;
+    Altitude altitude;
     std::uint32_t triangle;  ///< the last one on the way
     double distance;         ///< of the outline, in metres
     OutlineEdge edge;
@@ -87,14 +100,18 @@ class SliceTracer {
     OutlineEdge edge;
   };
 
-  Vec3 direction(double altitude_rad) const;
+  Vec3 direction(const Altitude& altitude) const;
   bool crosses(std::uint32_t triangle) const;
-  double across(std::uint32_t vertex) const;
-  PlanePoint edge_point(std::uint32_t a, std::uint32_t b) const;
+  Corner corner(std::uint32_t vertex) const;
+  static bool parted(const Corner& a, const Corner& b) {
+    return (a.side >= 0.0) != (b.side >= 0.0);
+  }
+  PlanePoint edge_point(const Corner& a, const Corner& b) const;
   /// Follows the mesh from `triangle` toward rising (+1) or falling (-1) altitude.
   Outline follow(std::uint32_t triangle, int sense) const;
   /// Climbs (or descends) from `start` until the sky shows or `limit` is passed.
-  double find_end(double start, double limit, int sense, End& end);
+  Altitude find_end(const Altitude& start, const Altitude& limit, int sense, End& end,
+                    const std::array<std::uint32_t, 2>& hints);
   /// The triangle itself or a neighbour, whichever the slice cuts.
   std::uint32_t cut_near(std::uint32_t triangle) const;
   void remember(std::uint32_t triangle);

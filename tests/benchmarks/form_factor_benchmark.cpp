@@ -1,12 +1,15 @@
 // Form factors: error against time of each method, as many shots as the tables of Doi and Itoh
 // have, in rooms of their sizes; and the time of a shot in a building of 53,000 elements.
 //
-// Run it on an otherwise idle machine: ./form_factor_benchmark
+// Processor time of one thread, medians of five rounds in which all methods and resolutions take
+// turns: ./form_factor_benchmark
 
-#include <chrono>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -57,21 +60,42 @@ struct Point {
   double ms_a_shot, error;
 };
 
-/// The median time of five runs.
-Point measured(std::string_view name, const ElementMesh& mesh, const std::vector<Shot>& shots,
-               const std::vector<FormFactorRow>& exact, int resolution) {
-  const auto method = form_factor_method(name, mesh, {.resolution = resolution});
-  std::vector<double> seconds;
-  std::vector<FormFactorRow> rows;
-  for (int run = 0; run < 5; ++run) {
-    const auto start = std::chrono::steady_clock::now();
-    rows = rows_of(*method, shots);
-    seconds.push_back(
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+constexpr int kRounds = 5;
+
+/// A method at a resolution, timed round by round.
+class Timed {
+ public:
+  Timed(std::string_view name, const ElementMesh& mesh, int resolution)
+      : name_(name),
+        resolution_(resolution),
+        method_(form_factor_method(name, mesh, {.resolution = resolution})) {}
+
+  std::string_view name() const { return name_; }
+
+  void run(const std::vector<Shot>& shots) {
+    const std::clock_t start = std::clock();
+    rows_ = rows_of(*method_, shots);
+    const auto ticks = static_cast<double>(std::clock() - start);
+    ms_a_shot_.push_back(1e3 * ticks / CLOCKS_PER_SEC / static_cast<double>(shots.size()));
   }
-  std::sort(seconds.begin(), seconds.end());
-  return {resolution, 1e3 * seconds[2] / static_cast<double>(shots.size()),
-          exact.empty() ? 0.0 : error_of(rows, exact)};
+
+  Point point(const std::vector<FormFactorRow>& exact) {
+    std::sort(ms_a_shot_.begin(), ms_a_shot_.end());
+    return {resolution_, ms_a_shot_[kRounds / 2], exact.empty() ? 0.0 : error_of(rows_, exact)};
+  }
+
+ private:
+  std::string_view name_;
+  int resolution_;
+  std::unique_ptr<FormFactorMethod> method_;
+  std::vector<double> ms_a_shot_;
+  std::vector<FormFactorRow> rows_;
+};
+
+void take_turns(std::vector<Timed>& timed, const std::vector<Shot>& shots) {
+  for (int round = 0; round < kRounds; ++round) {
+    for (Timed& t : timed) t.run(shots);
+  }
 }
 
 /// Time at an error, between points on straight lines in logarithms.
@@ -103,21 +127,24 @@ void compare_in_room(MeshLengths lengths, std::size_t count) {
   const std::vector<Shot> shots = shots_of(mesh, count);
   const std::vector<FormFactorRow> exact =
       rows_of(*form_factor_method("analytic", mesh, {}), shots);
-  std::map<std::string_view, std::vector<Point>> curve;
+  std::vector<Timed> timed;
   for (const std::string_view name : form_factor_method_names()) {
     if (name == "analytic") continue;
     for (int resolution = 12; resolution <= 800; resolution *= 2) {
-      if (name == "hemicube" && resolution == 96) {
-        curve[name].push_back(measured(name, mesh, shots, exact, 100));
-      } else {
-        curve[name].push_back(measured(name, mesh, shots, exact, resolution));
-      }
-      const Point& p = curve[name].back();
-      std::printf("  %-20s %4d  %8.3f ms a shot  error %.3e\n", name.data(), p.resolution,
-                  p.ms_a_shot, p.error);
+      timed.emplace_back(name, mesh, name == "hemicube" && resolution == 96 ? 100 : resolution);
     }
+  }
+  take_turns(timed, shots);
+  std::map<std::string_view, std::vector<Point>> curve;
+  for (Timed& t : timed) {
+    const Point p = t.point(exact);
+    curve[t.name()].push_back(p);
+    std::printf("  %-20s %4d  %8.3f ms a shot  error %.3e\n", t.name().data(), p.resolution,
+                p.ms_a_shot, p.error);
+  }
+  for (const auto& [name, points] : curve) {
     std::printf("  %-20s error falls with the resolution to the power %.2f\n", name.data(),
-                order_of(curve[name]));
+                order_of(points));
   }
   for (const Point& cube : curve["hemicube"]) {
     std::printf("  at the error of a hemicube of %3d (%.2e, %.3f ms):", cube.resolution, cube.error,
@@ -137,10 +164,13 @@ void time_in_building() {
   std::printf("building of 10,640 polygons, %zu elements; 128 lines or pixels; one thread\n",
               mesh.size());
   const std::vector<Shot> shots = shots_of(mesh, 20);
+  std::vector<Timed> timed;
   for (const std::string_view name : form_factor_method_names()) {
-    if (name == "analytic") continue;
-    std::printf("  %-20s %8.2f ms a shot\n", name.data(),
-                measured(name, mesh, shots, {}, 128).ms_a_shot);
+    if (name != "analytic") timed.emplace_back(name, mesh, 128);
+  }
+  take_turns(timed, shots);
+  for (Timed& t : timed) {
+    std::printf("  %-20s %8.2f ms a shot\n", t.name().data(), t.point({}).ms_a_shot);
   }
 }
 

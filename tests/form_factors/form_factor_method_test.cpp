@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "form_factor_mesh.h"
 #include "form_factors/form_factor.h"
+#include "support/generated_rooms.h"
 
 namespace tenku {
 namespace {
@@ -142,23 +143,27 @@ TEST_P(AllMethods, PlanesThatCrossAreCutWhereTheyDo) {
   EXPECT_LT(sum.at(0) + sum.at(1), square_on_axis(1.0, 0.8));
 }
 
+/// Root of the sum over fronts of some elements of the squares of what rows are wrong by.
+double error_of(const FormFactorMethod& method, const ElementMesh& mesh, std::size_t step) {
+  const auto exact = form_factor_method("analytic", mesh, {});
+  double sum = 0.0;
+  for (std::size_t element = 0; element < mesh.size(); element += step) {
+    const Vec3 normal = mesh.normal(2 * element);
+    const Vec3 at = mesh.centre(element) + kLift * normal;
+    std::map<std::uint32_t, double> difference;
+    for (const auto& [side, value] : exact->from_point(at, normal)) difference[side] -= value;
+    for (const auto& [side, value] : method.from_point(at, normal)) difference[side] += value;
+    for (const auto& [side, value] : difference) sum += value * value;
+  }
+  return std::sqrt(sum);
+}
+
 TEST_P(AllMethods, ErrorFallsWithTheResolution) {
   // The orders that docs/form_factors.md states, less what chance takes and gives: over a factor of
-  // eight in the resolution.
-  const ElementMesh mesh = box_mesh({4, 3, 2.5}, 3);
-  const auto exact = form_factor_method("analytic", mesh, {});
+  // eight in the resolution, where furniture hides parts of walls.
+  const ElementMesh mesh = testing_support::furnished_room({1.05, 0.95});
   const auto error_at = [&](int resolution) {
-    const auto method = form_factor_method(GetParam(), mesh, {.resolution = resolution});
-    double sum = 0.0;
-    for (std::size_t element = 0; element < mesh.size(); element += 5) {
-      const Vec3 normal = mesh.normal(2 * element);
-      const Vec3 at = mesh.centre(element) + kLift * normal;
-      std::map<std::uint32_t, double> difference;
-      for (const auto& [side, value] : exact->from_point(at, normal)) difference[side] -= value;
-      for (const auto& [side, value] : method->from_point(at, normal)) difference[side] += value;
-      for (const auto& [side, value] : difference) sum += value * value;
-    }
-    return std::sqrt(sum);
+    return error_of(*form_factor_method(GetParam(), mesh, {.resolution = resolution}), mesh, 19);
   };
   if (GetParam() == "analytic") {
     EXPECT_LT(error_at(32), 1e-9);
@@ -166,6 +171,33 @@ TEST_P(AllMethods, ErrorFallsWithTheResolution) {
   }
   const double order = std::log(error_at(32) / error_at(256)) / std::log(8.0);
   EXPECT_GT(order, GetParam() == "hemicube" || GetParam() == "hemisphere-zbuffer" ? 1.1 : 1.3);
+}
+
+TEST(HemisphereScanline, IsExactWhereNothingIsHidden) {
+  const ElementMesh mesh = box_mesh({4, 3, 2.5}, 3);
+  const auto method = form_factor_method("hemisphere-scanline", mesh, {.resolution = 8});
+  EXPECT_LT(error_of(*method, mesh, 5), 1e-6);
+}
+
+TEST(HemisphereScanline, MeetsSheetsBetweenLinesAsOftenAsTheyCount) {
+  // A small square in the open, a tenth as high as lines are apart: the mean over many points is
+  // that of Lambert's law for a small surface, cos cos' A / (pi r^2).
+  constexpr double kHalf = 0.01;
+  ElementMesh mesh;
+  add_polygon(mesh, level_square({0, 0, 1}, 5.0));
+  add_polygon(mesh, level_square({0, 0, 0.8}, kHalf));
+  mesh.object[2] = mesh.object[3] = 1;
+  const auto method = form_factor_method("hemisphere-scanline", mesh, {.resolution = 8});
+  double sum = 0.0, expected = 0.0;
+  constexpr int kPoints = 40000;
+  for (int k = 0; k < kPoints; ++k) {
+    const double x = 0.4 * k / kPoints, square = x * x + 0.64;
+    for (const FormFactor& f : method->from_point({x, 0, 0}, kZenith)) {
+      if (f.side / 2 >= 2) sum += f.value;
+    }
+    expected += 0.64 * 4.0 * kHalf * kHalf / (kPi * square * square);
+  }
+  EXPECT_NEAR(sum / expected, 1.0, 0.05);  // one in ten is met: 0.3 / sqrt(4000), ten times that
 }
 
 INSTANTIATE_TEST_SUITE_P(FormFactors, AllMethods, testing::ValuesIn(form_factor_method_names()),

@@ -1,0 +1,274 @@
+#include "radiosity/kept_daylight.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <unordered_map>
+#include <utility>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/random.h"
+#include "illuminance/error_budget.h"
+#include "illuminance/outline_gap.h"
+#include "illuminance/sensor_cells.h"
+#include "illuminance/sensor_sun.h"
+#include "visibility/slice_tracer.h"
+
+namespace tenku {
+namespace {
+
+constexpr std::size_t kGrain = 16;                // sensors a task
+constexpr int kFirst = 16, kMost = 512;           // slices in a turn
+constexpr int kEnough = 32;                       // that see the sky
+constexpr std::uint64_t kStream = 0x6b657074ULL;  // of the random start of slices
+
+/// The slices of one sensor, more and more where it sees the sky.
+class SeenSlices {
+ public:
+  struct Slice {
+    double azimuth;
+    double toward;  ///< component of the normal toward it
+    std::vector<SeenPiece> piece;
+  };
+
+  SeenSlices(const RayVisibility& rays, const SkyTable& sky, Vec3 position, Vec3 normal,
+             double start)
+      : sight_{rays, &sky, position + rays.lift_m() * normal, normal},
+        tracer_(rays, sight_.origin) {
+    for (int k = 0; k < kFirst; ++k) add(start + 2.0 * kPi * k / kFirst, slice_);
+    for (int turn = 2 * kFirst; turn <= kMost && seeing() < kEnough; turn *= 2) refine();
+  }
+
+  const std::vector<Slice>& slices() const { return slice_; }
+  /// Half of the gaps on both sides.
+  double width(std::size_t i) const {
+    const std::size_t count = slice_.size();
+    const double left = i > 0 ? slice_[i - 1].azimuth : slice_[count - 1].azimuth - 2.0 * kPi;
+    const double right = i + 1 < count ? slice_[i + 1].azimuth : slice_[0].azimuth + 2.0 * kPi;
+    return 0.5 * (right - left);
+  }
+
+ private:
+  int seeing() const {
+    return static_cast<int>(std::count_if(slice_.begin(), slice_.end(),
+                                          [](const Slice& s) { return !s.piece.empty(); }));
+  }
+
+  /// One in the middle of each gap beside a slice that sees the sky; of each where none does.
+  void refine() {
+    const bool is_dark = seeing() == 0;
+    std::vector<Slice> finer;
+    for (std::size_t i = 0; i < slice_.size(); ++i) {
+      const Slice& next = slice_[(i + 1) % slice_.size()];
+      const double gap =
+          next.azimuth - slice_[i].azimuth + (i + 1 < slice_.size() ? 0.0 : 2.0 * kPi);
+      const bool is_wanted = is_dark || !slice_[i].piece.empty() || !next.piece.empty();
+      finer.push_back(slice_[i]);
+      if (is_wanted) add(slice_[i].azimuth + 0.5 * gap, finer);
+    }
+    slice_ = std::move(finer);
+  }
+
+  void add(double azimuth, std::vector<Slice>& to) {
+    const Vec3 along{std::sin(azimuth), std::cos(azimuth), 0.0};
+    Slice slice{azimuth, dot(sight_.normal, along), {}};
+    const auto [low, high] = front_range(slice.toward, sight_.normal.z);
+    if (low < high) {
+      const VisibleSlice visible = tracer_.trace(along, low, high);
+      for (int k = 0; k < visible.count; ++k) {
+        const AltitudeRange range = visible.range[static_cast<std::size_t>(k)];
+        append_pieces(sight_, along, range.low, range.high, slice.piece);
+      }
+    }
+    to.push_back(std::move(slice));
+  }
+
+  SensorSight sight_;
+  SliceTracer tracer_;
+  std::vector<Slice> slice_;
+};
+
+bool is_kept(const DaylightSource& source) {
+  return source.sky != nullptr && source.elements == nullptr && source.sky->horizontal_lux() > 0.0;
+}
+
+}  // namespace
+
+IlluminanceResult KeptDaylight::light(const Sensors& sensors, const DaylightMethod& daylight,
+                                      Progress& progress) {
+  if (!begin_.empty() && is_kept(daylight.source)) return taken_over(sensors, daylight, progress);
+  IlluminanceResult found = illuminate(sensors, daylight.engines, daylight.source, daylight.options,
+                                       daylight.method, progress);
+  found_anew_ = sensors.size();
+  if (keeps_ && begin_.empty() && is_kept(daylight.source)) {
+    keep(sensors, daylight, found, progress);
+  }
+  return found;
+}
+
+void KeptDaylight::keep(const Sensors& sensors, const DaylightMethod& daylight,
+                        IlluminanceResult first, Progress& progress) {
+  first_ = std::move(first.values);
+  first_horizontal_lux_ = daylight.source.sky->horizontal_lux();
+  progress.begin("what sensors see of the sky", sensors.size());
+  std::vector<std::vector<Piece>> seen(sensors.size());
+  parallel_for(sensors.size(), kGrain, [&](IndexRange range) {
+    progress.stop_if_cancelled();
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      if (first_.sky_lux[i] > 0.0) seen[i] = look(sensors, i, daylight);
+    }
+    progress.advance(range.end - range.begin);
+  });
+  begin_ = {0};
+  for (const std::vector<Piece>& pieces : seen) {
+    piece_.insert(piece_.end(), pieces.begin(), pieces.end());
+    begin_.push_back(piece_.size());
+  }
+  progress.end(std::to_string(piece_.size()) + " pieces");
+}
+
+std::vector<KeptDaylight::Piece> KeptDaylight::look(const Sensors& sensors, std::size_t i,
+                                                    const DaylightMethod& daylight) const {
+  const Vec3 normal = sensors.normal[i];
+  const SkyTable& sky = *daylight.source.sky;
+  const double start = 2.0 * kPi * SampleRandom(daylight.options.seed ^ kStream, i, 0).uniform();
+  const SeenSlices seen(daylight.engines.rays(), sky, sensors.position[i], normal, start);
+  std::vector<Piece> pieces;
+  std::uint32_t number = 0;
+  for (std::size_t k = 0; k < seen.slices().size(); ++k) {
+    const auto& slice = seen.slices()[k];
+    if (slice.piece.empty()) continue;
+    const SkyTable::Column column = sky.column(slice.azimuth);
+    for (const SeenPiece& p : slice.piece) {
+      const SliceMoments m = column.to(p.high) - column.to(p.low);
+      const double weight = seen.width(k) * p.transmittance;
+      const double lux = weight * (slice.toward * m.along + normal.z * m.up);
+      pieces.push_back({static_cast<float>(slice.azimuth), static_cast<float>(slice.toward),
+                        static_cast<float>(weight), static_cast<float>(p.low),
+                        static_cast<float>(p.high), static_cast<float>(lux), number});
+    }
+    ++number;
+  }
+  return pieces;
+}
+
+KeptDaylight::Times KeptDaylight::times(std::size_t sensor, double up, const SkyTable& sky) const {
+  // Two halves of the slices, a b b a a b b a: a slope over what is seen is in both alike.
+  std::array<double, 2> first{}, now{};
+  std::uint32_t last = 0;
+  for (std::size_t k = begin_[sensor]; k < begin_[sensor + 1]; ++k) {
+    const Piece& p = piece_[k];
+    const SkyTable::Column column = sky.column(p.azimuth_rad);
+    const SliceMoments m = column.to(p.high_rad) - column.to(p.low_rad);
+    const std::size_t half = (p.slice + 1) / 2 % 2;
+    first[half] += p.first_lux;
+    now[half] += p.weight_rad * (p.toward * m.along + up * m.up);
+    last = p.slice;
+  }
+  if (last + 1 < kFewestSeeing || !(first[0] > 0.0 && first[1] > 0.0)) return {};
+  Times times;
+  times.mean = (now[0] + now[1]) / (first[0] + first[1]);
+  times.is_known = times.mean > 0.0;
+  if (!times.is_known) return {};
+  times.variance = std::pow(0.5 * (now[0] / first[0] - now[1] / first[1]) / times.mean, 2);
+  return times;
+}
+
+/// One difference tells little of its own size: those of a plane tell the rest.
+std::vector<KeptDaylight::Times> KeptDaylight::times_of_all(const Sensors& sensors,
+                                                            const SkyTable& sky) const {
+  std::vector<Times> all(sensors.size());
+  parallel_for(sensors.size(), kGrain, [&](IndexRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      all[i] = times(i, sensors.normal[i].z, sky);
+    }
+  });
+  struct Pool {
+    double sum = 0.0, count = 0.0;
+  };
+  std::unordered_map<std::uint64_t, Pool> pools;
+  std::vector<Pool*> pool_of(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!all[i].is_known) continue;
+    Pool& pool = pools[plane_of(sensors.normal[i], sensors.position[i])];
+    pool.sum += all[i].variance, pool.count += 1.0;
+    pool_of[i] = &pool;  // elements of a map stay where they are
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!all[i].is_known) continue;
+    const double usual = pool_of[i]->sum / pool_of[i]->count;
+    all[i].variance = 0.5 * (usual + all[i].variance);
+  }
+  return all;
+}
+
+IlluminanceResult KeptDaylight::taken_over(const Sensors& sensors, const DaylightMethod& daylight,
+                                           Progress& progress) {
+  expects(begin_.size() == sensors.size() + 1, "the sensors are those of the first sky");
+  const DaylightSource& source = daylight.source;
+  const RayVisibility& rays = daylight.engines.rays();
+  const std::vector<Times> all = times_of_all(sensors, *source.sky);
+  const double of_horizon = source.sky->horizontal_lux() / first_horizontal_lux_;
+  const ErrorBudget budget(daylight.options.tolerance_pct,
+                           daylight.options.floor_share * source.unobstructed_lux());
+  IlluminanceResult result;
+  result.values = SensorIlluminance(sensors.size());
+  result.is_missed.resize(sensors.size());
+  std::vector<std::uint64_t> sent(sensors.size());
+  progress.begin("daylight taken over", sensors.size());
+  parallel_for(sensors.size(), kGrain, [&](IndexRange range) {
+    progress.stop_if_cancelled();
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      // Of what sees nearly nothing, hardly anything is known: all of it may be wrong.
+      const double times = all[i].is_known ? all[i].mean : of_horizon;
+      const double variance = all[i].is_known ? all[i].variance : 1.0;
+      const double sky_lux = times * first_.sky_lux[i];
+      SensorSun sun(rays, source.sun, sensors.position[i], sensors.normal[i],
+                    mix_bits(mix_bits(daylight.options.seed) + i));
+      do {
+        sun.refine();
+      } while (sun.variance() > budget.allowed_variance(sky_lux + sun.lux()) &&
+               sun.rays_sent() < static_cast<std::uint64_t>(daylight.options.most_paths));
+      result.values.sun_lux[i] = sun.lux();
+      result.values.sky_lux[i] = sky_lux;
+      result.values.sky_view[i] = first_.sky_view[i];
+      result.values.error_lux[i] =
+          std::hypot(times * first_.error_lux[i],
+                     interval_lux(variance * sky_lux * sky_lux + sun.variance(), 0.0));
+      result.is_missed[i] =
+          result.values.error_lux[i] > budget.allowed_lux(result.values.total_lux(i));
+      sent[i] = sun.rays_sent();
+    }
+  });
+  for (const std::uint64_t s : sent) result.rays += s;
+  progress.end(std::to_string(sensors.size()) + " sensors");
+  find_anew(sensors, daylight, progress, result);
+  tell_missed(result);
+  if (source.unobstructed_lux() > 0.0) find_dark_sensors(sensors, result.values, result.findings);
+  return result;
+}
+
+void KeptDaylight::find_anew(const Sensors& sensors, const DaylightMethod& daylight,
+                             Progress& progress, IlluminanceResult& result) {
+  std::vector<std::uint32_t> missed;
+  for (std::uint32_t i = 0; i < sensors.size(); ++i) {
+    if (result.is_missed[i] != 0) missed.push_back(i);
+  }
+  found_anew_ = missed.size();
+  if (missed.empty()) return;
+  const IlluminanceResult part =
+      illuminate(sensors_of(sensors, missed), daylight.engines, daylight.source, daylight.options,
+                 daylight.method, progress);
+  for (std::size_t k = 0; k < missed.size(); ++k) {
+    const std::uint32_t i = missed[k];
+    result.values.sun_lux[i] = part.values.sun_lux[k];
+    result.values.sky_lux[i] = part.values.sky_lux[k];
+    result.values.sky_view[i] = part.values.sky_view[k];
+    result.values.error_lux[i] = part.values.error_lux[k];
+    result.is_missed[i] = part.is_missed[k];
+  }
+  result.rays += part.rays;
+}
+
+}  // namespace tenku

@@ -1,0 +1,88 @@
+/// Direct light that is found for one sky and taken over to others.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/progress.h"
+#include "illuminance/daylight_source.h"
+#include "illuminance/illuminate.h"
+#include "illuminance/planned_light.h"
+#include "illuminance/sensor.h"
+#include "visibility/engines.h"
+
+namespace tenku {
+
+/// How direct light is found.
+struct DaylightMethod {
+  const Engines& engines;
+  const DaylightSource& source;
+  IlluminanceOptions options;  ///< no bounces
+  LightMethod method;
+};
+
+/// Sun and sky on the same sensors, one sky after another.
+///
+/// The integrator finds the light of the first sky. Then each sensor keeps which altitudes it sees
+/// in slices of the sky, most of them where it sees any. Under another sky the slices of a sensor
+/// sum up to so many times what they sum up to under the first, and so does its skylight: the
+/// number of times varies little over what a sensor sees, so that it needs few slices. Sunlight is
+/// found anew.
+///
+/// Error    of the number of times: half the difference between those of two halves of the slices,
+///          pooled with those of the same plane. Sensors that so come out of
+///          tolerance, and those that see the sky in fewer than kFewestSeeing slices, are found
+///          anew.
+/// Cost     of another sky: some look-ups a slice, and the rays toward the sun.
+class KeptDaylight {
+ public:
+  /// @param keeps  whether other skies follow; without it, all is found anew each time
+  explicit KeptDaylight(bool keeps) : keeps_(keeps) {}
+
+  /// @param sensors  the same ones each time
+  /// @throws as `illuminate`
+  IlluminanceResult light(const Sensors& sensors, const DaylightMethod& daylight,
+                          Progress& progress);
+
+  /// Sensors that the last call has found anew.
+  std::size_t found_anew() const { return found_anew_; }
+  std::size_t bytes() const { return piece_.size() * sizeof(Piece); }
+
+  static constexpr int kFewestSeeing = 6;  ///< slices
+
+ private:
+  /// A visible range of altitudes in one slice.
+  struct Piece {
+    float azimuth_rad, toward;  ///< and the component of the normal toward it
+    float weight_rad;           ///< azimuth that it stands for, times the transmittance of panes
+    float low_rad, high_rad;
+    float first_lux;      ///< under the first sky
+    std::uint32_t slice;  ///< number among those of the sensor that see the sky
+  };
+  /// What another sky gives, in times of the first.
+  struct Times {
+    double mean = 0.0, variance = 0.0;  ///< the latter in parts of the mean squared
+    bool is_known = false;
+  };
+
+  void keep(const Sensors& sensors, const DaylightMethod& daylight, IlluminanceResult first,
+            Progress& progress);
+  std::vector<Piece> look(const Sensors& sensors, std::size_t i,
+                          const DaylightMethod& daylight) const;
+  Times times(std::size_t sensor, double up, const SkyTable& sky) const;
+  std::vector<Times> times_of_all(const Sensors& sensors, const SkyTable& sky) const;
+  IlluminanceResult taken_over(const Sensors& sensors, const DaylightMethod& daylight,
+                               Progress& progress);
+  void find_anew(const Sensors& sensors, const DaylightMethod& daylight, Progress& progress,
+                 IlluminanceResult& result);
+
+  bool keeps_;
+  std::vector<std::size_t> begin_;  ///< [sensor + 1], places in `piece_`; empty: nothing is kept
+  std::vector<Piece> piece_;
+  SensorIlluminance first_;
+  double first_horizontal_lux_ = 0.0;
+  std::size_t found_anew_ = 0;
+};
+
+}  // namespace tenku
