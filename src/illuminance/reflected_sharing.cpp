@@ -136,7 +136,7 @@ void ReflectedSharing::spread(const SensorIlluminance& of_calculated,
       const std::uint32_t own = own_[s];
       const Blend blend =
           own != kNone ? Blend{of_calculated.reflected_lux[own], of_calculated.error_lux[own], 0.0,
-                                of_calculated.reflected_rgb[own]}
+                               of_calculated.reflected_rgb[own]}
                        : blend_at(s, of_calculated);
       const bool is_measured = own == kNone && layout_.is_measured;
       const double error =

@@ -75,7 +75,7 @@ class SeenSlices {
     Slice slice{azimuth, dot(sight_.normal, along), {}};
     const auto [low, high] = front_range(slice.toward, sight_.normal.z);
     if (low < high) {
-      const VisibleSlice visible = tracer_.trace(along, low, high);
+      const VisibleSlice visible = tracer_.trace(along, Altitude::of(low), Altitude::of(high));
       for (int k = 0; k < visible.count; ++k) {
         const AltitudeRange range = visible.range[static_cast<std::size_t>(k)];
         append_pieces(sight_, along, range.low, range.high, slice.piece);
@@ -141,12 +141,12 @@ std::vector<KeptDaylight::Piece> KeptDaylight::look(const Sensors& sensors, std:
     if (slice.piece.empty()) continue;
     const SkyTable::Column column = sky.column(slice.azimuth);
     for (const SeenPiece& p : slice.piece) {
-      const SliceMoments m = column.to(p.high) - column.to(p.low);
+      const SliceMoments m = column.to(p.high.radians) - column.to(p.low.radians);
       const double weight = seen.width(k) * p.transmittance;
       const double lux = weight * (slice.toward * m.along + normal.z * m.up);
       pieces.push_back({static_cast<float>(slice.azimuth), static_cast<float>(slice.toward),
-                        static_cast<float>(weight), static_cast<float>(p.low),
-                        static_cast<float>(p.high), static_cast<float>(lux), number});
+                        static_cast<float>(weight), static_cast<float>(p.low.radians),
+                        static_cast<float>(p.high.radians), static_cast<float>(lux), number});
     }
     ++number;
   }
