@@ -19,7 +19,9 @@ namespace tenku {
 namespace {
 
 constexpr std::size_t kGrain = 16;                // sensors a task
-constexpr int kFirst = 16, kMost = 512;           // slices in a turn
+constexpr int kFirst = 16, kMost = 4096;          // slices in a turn
+constexpr int kMostInDark = 256;                  // where none has seen the sky
+constexpr int kFine = 64;                         // in a turn, where the sky is seen, at least
 constexpr int kEnough = 32;                       // that see the sky
 constexpr std::uint64_t kStream = 0x6b657074ULL;  // of the random start of slices
 
@@ -37,7 +39,11 @@ class SeenSlices {
       : sight_{rays, &sky, position + rays.lift_m() * normal, normal},
         tracer_(rays, sight_.origin) {
     for (int k = 0; k < kFirst; ++k) add(start + 2.0 * kPi * k / kFirst, slice_);
-    for (int turn = 2 * kFirst; turn <= kMost && seeing() < kEnough; turn *= 2) refine();
+    int turn = kFirst;
+    while (turn < (seeing() > 0 ? kMost : kMostInDark) && (turn < kFine || seeing() < kEnough)) {
+      refine();
+      turn *= 2;
+    }
   }
 
   const std::vector<Slice>& slices() const { return slice_; }
@@ -88,6 +94,15 @@ class SeenSlices {
   SliceTracer tracer_;
   std::vector<Slice> slice_;
 };
+
+/// The variance of which these are draws, squares of normal numbers: by the median, which a few
+/// that are much greater do not move.
+double usual_variance(std::vector<double> squares) {
+  constexpr double kMedian = 0.4549;  // of the chi-squared distribution of one degree of freedom
+  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+  std::nth_element(squares.begin(), middle, squares.end());
+  return *middle / kMedian;
+}
 
 bool is_kept(const DaylightSource& source) {
   return source.sky != nullptr && source.elements == nullptr && source.sky->horizontal_lux() > 0.0;
@@ -179,26 +194,21 @@ KeptDaylight::Times KeptDaylight::times(std::size_t sensor, double up, const Sky
 std::vector<KeptDaylight::Times> KeptDaylight::times_of_all(const Sensors& sensors,
                                                             const SkyTable& sky) const {
   std::vector<Times> all(sensors.size());
+  std::vector<std::uint64_t> plane(sensors.size());
   parallel_for(sensors.size(), kGrain, [&](IndexRange range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
       all[i] = times(i, sensors.normal[i].z, sky);
+      plane[i] = plane_of(sensors.normal[i], sensors.position[i]);
     }
   });
-  struct Pool {
-    double sum = 0.0, count = 0.0;
-  };
-  std::unordered_map<std::uint64_t, Pool> pools;
-  std::vector<Pool*> pool_of(all.size());
+  std::unordered_map<std::uint64_t, std::vector<double>> draws;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!all[i].is_known) continue;
-    Pool& pool = pools[plane_of(sensors.normal[i], sensors.position[i])];
-    pool.sum += all[i].variance, pool.count += 1.0;
-    pool_of[i] = &pool;  // elements of a map stay where they are
+    if (all[i].is_known) draws[plane[i]].push_back(all[i].variance);
   }
+  std::unordered_map<std::uint64_t, double> usual;
+  for (auto& [of_plane, squares] : draws) usual[of_plane] = usual_variance(std::move(squares));
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!all[i].is_known) continue;
-    const double usual = pool_of[i]->sum / pool_of[i]->count;
-    all[i].variance = 0.5 * (usual + all[i].variance);
+    if (all[i].is_known) all[i].variance = 0.5 * (usual[plane[i]] + all[i].variance);
   }
   return all;
 }
