@@ -5,7 +5,7 @@ import math
 
 WIDTH, HEIGHT = 760, 470
 LEFT, RIGHT, TOP, BOTTOM = 78, 44, 84, 62
-COLOURS = ("#b3401e", "#1f5fa8")
+COLOURS = ("#b3401e", "#1f5fa8", "#2e7d32")
 
 
 class LogAxis:
@@ -53,7 +53,7 @@ def draw_axes(x, y, x_label, y_label):
 
 
 def draw_series(number, points, x, y):
-    """Line and dots; labels above the dots of the first, below those of the second."""
+    """Line and dots; labels above the dots of the first, below those of the others."""
     colour = COLOURS[number]
     path = " ".join(f"{x.at(t):.1f},{y.at(e):.1f}" for t, e, _ in points)
     parts = [f'<polyline points="{path}" fill="none" stroke="{colour}" '
@@ -78,7 +78,7 @@ def draw_legend(names):
 
 def write_chart(path, title, labels, series):
     """@param labels  of the time and of the error axis, with units
-    @param series  up to two of (name, [(time, error, label of the point)])"""
+    @param series  up to three of (name, [(time, error, label of the point)])"""
     every = [point for _, points in series for point in points]
     x = LogAxis([t for t, _, _ in every], LEFT, WIDTH - RIGHT)
     y = LogAxis([e for _, e, _ in every], HEIGHT - BOTTOM, TOP)
