@@ -108,13 +108,20 @@ Json summary_of(const FormFactorCommandOptions& options, const GroupedFaces& fac
   Json summary{{"method", options.method},       {"resolution", options.resolution},
                {"two_sided", options.two_sided}, {"groups", matrix.groups},
                {"triangles", faces.mesh.size()}, {"seconds", seconds},
-               {"row_sums", Json::object()}};
+               {"row_sums", Json::object()},     {"to_backs", Json::object()}};
   for (std::size_t i = 0; i < matrix.groups; ++i) {
     summary["row_sums"][faces.names[i]] = matrix.row_sum(i);
+    summary["to_backs"][faces.names[i]] = matrix.to_backs[i];
   }
   summary["reciprocity_defect"] = matrix.reciprocity_defect();
   summary["error_max"] = *std::max_element(matrix.error.begin(), matrix.error.end());
   return summary;
+}
+
+/// A row that falls short of 1 in a closed scene is no leak where it meets backs.
+std::string told_of_backs(double share) {
+  if (!(share > 1e-6)) return "";
+  return fmt::format("; {:.6f} meets backs of faces (--two-sided counts them)", share);
 }
 
 void say_summary(const CommonOptions& options, const GroupedFaces& faces,
@@ -123,7 +130,8 @@ void say_summary(const CommonOptions& options, const GroupedFaces& faces,
                            matrix.groups, faces.mesh.size(), seconds, matrix.reciprocity_defect()));
   constexpr std::size_t kShown = 20;
   for (std::size_t i = 0; i < matrix.groups && (options.verbose || i < kShown); ++i) {
-    say(options, fmt::format("row sum {:.6f}  {}", matrix.row_sum(i), faces.names[i]));
+    say(options, fmt::format("row sum {:.6f}  {}{}", matrix.row_sum(i), faces.names[i],
+                             told_of_backs(matrix.to_backs[i])));
   }
   if (matrix.groups > kShown && !options.verbose) {
     say(options, fmt::format("and {} more rows (--verbose)", matrix.groups - kShown));

@@ -10,8 +10,9 @@
 namespace tenku {
 namespace {
 
-std::vector<Column> columns_of(const ElementMesh& mesh, bool two_sided) {
-  std::vector<Column> column(mesh.sides(), kNoColumn);
+/// Those of backs that do not count, of all groups together, come last.
+std::vector<Column> columns_of(const ElementMesh& mesh, std::size_t groups, bool two_sided) {
+  std::vector<Column> column(mesh.sides(), static_cast<Column>(groups));
   for (std::size_t side = 0; side < column.size(); ++side) {
     if (two_sided || side % 2 == 0) column[side] = mesh.object[side / 2];
   }
@@ -43,7 +44,7 @@ GroupFormFactors group_form_factors(const FormFactorMethod& method, const Elemen
   expects(mesh.patches() == mesh.size(), "each element is a patch of its own");
   PatchFormFactorOptions how = options.patch;
   how.progress = &progress;
-  const PatchFormFactors patches(method, mesh, columns_of(mesh, options.two_sided), how);
+  const PatchFormFactors patches(method, mesh, columns_of(mesh, groups, options.two_sided), how);
   std::vector<std::vector<PatchFormFactor>> rows(mesh.sides());
   progress.begin("form factors", mesh.size());
   parallel_for(mesh.size(), 1, [&](IndexRange range) {
@@ -57,12 +58,17 @@ GroupFormFactors group_form_factors(const FormFactorMethod& method, const Elemen
   GroupFormFactors matrix{.groups = groups,
                           .area_m2 = std::vector<double>(groups),
                           .value = std::vector<double>(groups * groups),
-                          .error = std::vector<double>(groups * groups)};
+                          .error = std::vector<double>(groups * groups),
+                          .to_backs = std::vector<double>(groups)};
   for (std::size_t e = 0; e < mesh.size(); ++e) matrix.area_m2[mesh.object[e]] += mesh.area_m2(e);
   for (std::size_t side = 0; side < rows.size(); ++side) {
     const std::size_t from = mesh.object[side / 2];
     const double share = mesh.area_m2(side / 2) / matrix.area_m2[from];
     for (const auto& [to, value, error] : rows[side]) {
+      if (to == groups) {
+        matrix.to_backs[from] += share * value;
+        continue;
+      }
       matrix.value[from * groups + to] += share * value;
       matrix.error[from * groups + to] += share * error;
     }

@@ -26,7 +26,9 @@ struct GroupFormFactors {
   std::size_t groups = 0;
   std::vector<double> area_m2;       ///< [group], of one side
   std::vector<double> value, error;  ///< the error is an estimate
-  bool within_tolerance = true;      ///< all errors
+  /// [group], what of a row's 1 meets backs of faces first; none with two sides.
+  std::vector<double> to_backs;
+  bool within_tolerance = true;  ///< all errors
 
   double row_sum(std::size_t from) const;
   /// Greatest difference over all pairs between what one sends to the other and what that sends

@@ -34,6 +34,8 @@ void check_options(const IlluminanceOptions& options) {
   }
 }
 
+Rgb not_below_zero(Rgb c) { return {std::max(0.0, c.r), std::max(0.0, c.g), std::max(0.0, c.b)}; }
+
 /// One sensor: its parts, refined where the gain is largest for the cost.
 class SensorWork {
  public:
@@ -86,6 +88,7 @@ class SensorWork {
     values.sun_lux[index] = sun_.lux();
     values.sky_lux[index] = light_of_sky().lux;
     values.reflected_lux[index] = std::max(0.0, reflected_lux());
+    if (reflected_) values.reflected_rgb[index] = not_below_zero(reflected_->rgb());
     values.sky_view[index] = light_of_sky().sky_view;
     values.error_lux[index] = interval();
   }
@@ -264,7 +267,7 @@ void add_shared_reflection(const ReflectedSharing& sharing, const RayVisibility&
     for (std::size_t k = 0; k < few.size(); ++k) {
       values.sky_lux[k] = result.values.sky_lux[sharing.calculated()[k]];
     }
-    (*options.reflection)(few, values, progress);
+    options.reflection->all(few, values, progress);
     sharing.spread(values, result.values);
     return;
   }
@@ -301,7 +304,7 @@ void add_reflection(const Sensors& sensors, const RayVisibility& rays, const Day
     return judge_whole(sensors, source, options, result);
   }
   if (options.reflection != nullptr) {
-    (*options.reflection)(sensors, result.values, progress);
+    options.reflection->all(sensors, result.values, progress);
     return judge_whole(sensors, source, options, result);
   }
   IlluminanceOptions::KnownDirect known;
@@ -312,6 +315,7 @@ void add_reflection(const Sensors& sensors, const RayVisibility& rays, const Day
   result.rays += more.rays;
   for (std::size_t s = 0; s < sensors.size(); ++s) {
     result.values.reflected_lux[s] = more.values.reflected_lux[s];
+    result.values.reflected_rgb[s] = more.values.reflected_rgb[s];
     result.values.error_lux[s] = std::hypot(result.values.error_lux[s], more.values.error_lux[s]);
     result.is_missed[s] |= more.is_missed[s];
   }

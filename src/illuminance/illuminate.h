@@ -16,10 +16,16 @@
 
 namespace tenku {
 
-/// Finds the light between surfaces other than by paths: fills `reflected_lux` of sensors whose
-/// direct light is in `values`, and adds to `error_lux`.
-using ReflectionFinder =
-    std::function<void(const Sensors& sensors, SensorIlluminance& values, Progress& progress)>;
+/// Finds the light between surfaces other than by paths: fills `reflected_lux` and `reflected_rgb`
+/// of sensors whose direct light is in `values`, and adds to `error_lux`.
+struct ReflectionFinder {
+  using Finder =
+      std::function<void(const Sensors& sensors, SensorIlluminance& values, Progress& progress)>;
+  Finder all;
+  /// The same in two parts for a picture: what varies slowly, for some of its points; then, for all
+  /// of them, the light straight from lamps is added.
+  Finder without_lamps, lamps;
+};
 
 struct IlluminanceOptions {
   double tolerance_pct = 2.0;

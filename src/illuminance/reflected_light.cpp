@@ -106,7 +106,9 @@ void ReflectedLight::trace_looked_up(int goal) {
           mix_bits(mix_bits(start.scramble + start.index) ^ static_cast<unsigned>(v.order));
       const double direct = sky_lux(v, address) + sun_lux(v.point, v.normal, v.u, v.v);
       const Rgb leaving = v.material.emission_lm_m2 + direct * v.material.reflectance;
-      const double lux = luminance_of(v.weight * leaving);
+      const Rgb arriving = v.weight * leaving;
+      const double lux = luminance_of(arriving);
+      looked_up_sum_ = looked_up_sum_ + arriving;
       batch_sum_[batch] += lux;
       order_sum_[static_cast<std::size_t>(v.order)] += lux;
     });
@@ -116,6 +118,7 @@ void ReflectedLight::trace_looked_up(int goal) {
   for (const double batch : batch_sum_) sum += batch / per_batch;
   const double mean = sum / kBatches;
   for (const double batch : batch_sum_) squares += std::pow(batch / per_batch - mean, 2);
+  looked_up_rgb_ = (1.0 / looked_up_paths_) * looked_up_sum_;
   looked_up_ = {mean, kWiden15 * squares / (kBatches * (kBatches - 1.0))};
 }
 
@@ -132,19 +135,22 @@ void ReflectedLight::trace_differences(int goal) {
       probability *= 0.5;
       if (stop) break;
     }
-    double lux = 0.0;
+    Rgb arriving{};
     trace_path(start, order, [&](const Vertex& v) {
       if (v.order != order) return;
       const std::uint64_t address = mix_bits(start.scramble + index);
       const double missed = true_sky_lux(v.point, v.normal, address, kTrueSlices) -
                             cache_.lux(v.triangle, v.point, v.normal, v.distance_m);
-      lux = missed * luminance_of(v.weight * v.material.reflectance) / probability;
+      arriving = (missed / probability) * (v.weight * v.material.reflectance);
     });
+    const double lux = luminance_of(arriving);
+    difference_rgb_sum_ = difference_rgb_sum_ + arriving;
     difference_sum_ += lux;
     difference_squares_ += lux * lux;
   }
   const double n = difference_paths_, mean = difference_sum_ / n;
   const double variance = std::max(0.0, difference_squares_ / n - mean * mean) / (n - 1.0);
+  difference_rgb_ = (1.0 / n) * difference_rgb_sum_;
   difference_ = {mean, variance * (difference_paths_ <= kFirstDifferences ? kWiden7 : kWiden15)};
 }
 

@@ -41,6 +41,8 @@ class ReflectedLight {
   void refine();
 
   double lux() const { return looked_up_.mean + difference_.mean; }
+  /// The same in three channels: `lux` is its luminance.
+  Rgb rgb() const { return looked_up_rgb_ + difference_rgb_; }
   double variance() const { return looked_up_.variance + difference_.variance; }  ///< lux^2
   /// Estimate of what bounces beyond the last would add.
   double left_out_lux() const;
@@ -72,7 +74,8 @@ class ReflectedLight {
   int bounces_;
   Vec3 origin_, normal_;
   std::uint64_t scramble_;
-  Estimate looked_up_, difference_;
+  Estimate looked_up_, difference_;  ///< of luminance
+  Rgb looked_up_rgb_{}, difference_rgb_{}, looked_up_sum_{}, difference_rgb_sum_{};
   std::vector<double> batch_sum_, order_sum_;
   double difference_sum_ = 0.0, difference_squares_ = 0.0;
   SkyBy way_ = SkyBy::Cache;

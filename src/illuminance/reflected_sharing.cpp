@@ -91,6 +91,7 @@ bool ReflectedSharing::has_representative(std::size_t sensor) const {
 
 ReflectedSharing::Blend ReflectedSharing::blend_at(std::size_t sensor,
                                                    const SensorIlluminance& of_calculated) const {
+  Rgb rgb{};
   double weight = 0.0, lux = 0.0, squares = 0.0, errors = 0.0, squared_errors = 0.0;
   cells_.around(sensor, [&](std::uint32_t r) {
     const std::size_t other = calculated_[r];
@@ -98,11 +99,13 @@ ReflectedSharing::Blend ReflectedSharing::blend_at(std::size_t sensor,
     const double away = length(layout_.place[other] - layout_.place[sensor]) / layout_.reach;
     const double w = std::exp(-away * away) + 1e-6;
     const double value = of_calculated.reflected_lux[r], error = of_calculated.error_lux[r];
+    rgb = rgb + w * of_calculated.reflected_rgb[r];
     weight += w, lux += w * value, squares += w * value * value;
     errors += w * error, squared_errors += std::pow(w * error, 2);
   });
   Blend blend;  // its own representative is always among them
   blend.lux = lux / weight;
+  blend.rgb = (1.0 / weight) * rgb;
   blend.error_lux = (layout_.is_measured ? std::sqrt(squared_errors) : errors) / weight;
   const double disagree = std::max(0.0, squares / weight - blend.lux * blend.lux);
   blend.scale_lux = std::hypot(blend.error_lux, std::sqrt(disagree), kUnknown * blend.lux);
@@ -132,12 +135,14 @@ void ReflectedSharing::spread(const SensorIlluminance& of_calculated,
     for (std::size_t s = range.begin; s < range.end; ++s) {
       const std::uint32_t own = own_[s];
       const Blend blend =
-          own != kNone ? Blend{of_calculated.reflected_lux[own], of_calculated.error_lux[own], 0.0}
+          own != kNone ? Blend{of_calculated.reflected_lux[own], of_calculated.error_lux[own], 0.0,
+                               of_calculated.reflected_rgb[own]}
                        : blend_at(s, of_calculated);
       const bool is_measured = own == kNone && layout_.is_measured;
       const double error =
           is_measured ? factor[is_flat(sensors_.normal[s])] * blend.scale_lux : blend.error_lux;
       all.reflected_lux[s] = blend.lux;
+      all.reflected_rgb[s] = blend.rgb;
       all.error_lux[s] = std::hypot(all.error_lux[s], error);
     }
   });

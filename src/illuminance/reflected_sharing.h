@@ -53,13 +53,14 @@ class ReflectedSharing {
   /// The sensors to calculate, by index: representatives, then pilots.
   const std::vector<std::uint32_t>& calculated() const { return calculated_; }
 
-  /// Fills `all.reflected_lux` and adds to `all.error_lux`, from the results of the calculated
-  /// sensors in their order.
+  /// Fills `all.reflected_lux` and `all.reflected_rgb`, and adds to `all.error_lux`, from the
+  /// results of the calculated sensors in their order.
   void spread(const SensorIlluminance& of_calculated, SensorIlluminance& all) const;
 
  private:
   struct Blend {
     double lux = 0.0, error_lux = 0.0, scale_lux = 0.0;
+    Rgb rgb{};
   };
   void choose_representatives();
   void draw_pilots();

@@ -17,6 +17,7 @@ namespace {
 // In sizes: a bubble nearer to another than this is that one, and nearer to a piece than this lies
 // at one of its ends.
 constexpr double kSameBubble = 0.5, kSamePiece = 0.35;
+constexpr double kBeside = 0.15;  // of a piece's length: nearer to it, a bubble parts it
 
 PlanePoint between(PlanePoint a, PlanePoint b, double t) {
   return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
@@ -89,7 +90,7 @@ class ConstraintAdder {
   /// The bubble that is there, or at the end of a piece that is there, or a new one.
   std::uint32_t bubble_at(PlanePoint p) {
     const double size = face_.size_at(p);
-    if (!(size > 0.0)) return kNone;
+    if (!is_size(size)) return kNone;
     std::uint32_t nearest = kNone;
     double least = kSameBubble * size;
     for (std::uint32_t i = 0; i < face_.at.size(); ++i) {
@@ -105,10 +106,18 @@ class ConstraintAdder {
     return nearest != kNone ? nearest : face_.add(p, size);
   }
 
-  /// @return  its length, if it would cross what is there
-  double add_piece(std::uint32_t a, std::uint32_t b) {
-    if (!edges_.insert(std::minmax(a, b)).second) return 0.0;
+  /// Adds a piece, through bubbles that lie beside it: it would make flat triangles with them.
+  /// @return  length of what would cross what is there
+  double add_piece(std::uint32_t a, std::uint32_t b, int depth = 0) {
     const PlanePoint p = face_.at[a], q = face_.at[b];
+    if (edges_.contains(std::minmax(a, b))) return 0.0;
+    const std::uint32_t beside = bubble_beside(a, b);
+    if (beside != kNone) {
+      constexpr int kDeepest = 8;
+      if (depth == kDeepest) return distance(p, q);
+      return add_piece(a, beside, depth + 1) + add_piece(beside, b, depth + 1);
+    }
+    edges_.insert(std::minmax(a, b));
     const bool is_crossed =
         std::any_of(face_.pieces.begin(), face_.pieces.end(), [&](const BubblePiece& piece) {
           const PlanePoint r = face_.at[piece.a], s = face_.at[piece.b];
@@ -117,6 +126,18 @@ class ConstraintAdder {
     if (is_crossed) return distance(p, q);
     face_.pieces.push_back({a, b, false});
     return 0.0;
+  }
+
+  /// The bubble nearest to the piece from `a` to `b`, if it is too near.
+  std::uint32_t bubble_beside(std::uint32_t a, std::uint32_t b) const {
+    std::uint32_t nearest = kNone;
+    double least = kBeside * distance(face_.at[a], face_.at[b]);
+    for (std::uint32_t i = 0; i < face_.at.size(); ++i) {
+      if (i == a || i == b) continue;
+      const double d = distance_to_segment(face_.at[i], face_.at[a], face_.at[b]);
+      if (d < least) nearest = i, least = d;
+    }
+    return nearest;
   }
 
   BubbleFace& face_;

@@ -34,6 +34,9 @@ struct BubbleFace {
   }
 };
 
+/// Whether a size can be that of a bubble.
+inline bool is_size(double size_m) { return size_m > 0.0 && std::isfinite(size_m); }
+
 /// Distance of `p` from the segment from `a` to `b`.
 inline double distance_to_segment(PlanePoint p, PlanePoint a, PlanePoint b) {
   const double dx = b.x - a.x, dy = b.y - a.y, whole = dx * dx + dy * dy;

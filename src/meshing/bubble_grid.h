@@ -74,7 +74,10 @@ class BubbleGrid {
 
   static int level_of(double size_m) { return std::ilogb(size_m) + 1; }
   static double width_of(int level) { return std::ldexp(1.0, level); }
-  static std::int64_t coordinate(double x) { return static_cast<std::int64_t>(std::floor(x)); }
+  static std::int64_t coordinate(double x) {
+    constexpr double kMost = 4e18;  // what 64 bits hold
+    return static_cast<std::int64_t>(std::clamp(std::floor(x), -kMost, kMost));
+  }
   std::size_t bucket(std::int64_t x, std::int64_t y, int level) const {
     const auto key = static_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15U +
                      static_cast<std::uint64_t>(y) * 0xc2b2ae3d27d4eb4fU +

@@ -36,6 +36,9 @@ class FaceMesher {
     const auto wanted = [&](PlanePoint p) { return size_at(number_, p); };
     face_.size_at = wanted;
     add_rings();
+    if (!std::all_of(face_.size_m.begin(), face_.size_m.end(), is_size)) {
+      return BubbleFlaw::Kind::BadSize;
+    }
     if (const auto refusal = turn_pieces()) return refusal;
     lost_m_ = add_constraints(face_, constraints, options_.vertices_most);
     const ShortPieces short_pieces(face_);

@@ -120,7 +120,7 @@ class Motion {
       for (std::size_t i = range.begin; i < range.end; ++i) {
         face_.at[face_.fixed + i] = next_[i];
         const double size = face_.size_at(next_[i]);
-        if (size > 0.0) face_.size_m[face_.fixed + i] = size;
+        if (is_size(size)) face_.size_m[face_.fixed + i] = size;
       }
     });
     return std::sqrt(squares / static_cast<double>(moving_));

@@ -54,7 +54,7 @@ bool BubblePlacer::add_if_free(PlanePoint from, PlanePoint to, double clear) {
   const double size = face_.size_at(to);
   // A step of many sizes into where bubbles are small: those beside fill that.
   const double way = std::hypot(to.x - from.x, to.y - from.y) / size;
-  if (!(size > 0.0) || way > kLongestWay) return false;
+  if (!is_size(size) || way > kLongestWay) return false;
   bool is_free = true;
   grid_.for_each_near(to, size, clear, [&](std::uint32_t i) {
     const double least = 0.5 * clear * (size + face_.size_m[i]);

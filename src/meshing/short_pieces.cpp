@@ -36,7 +36,7 @@ ShortPieces::ShortPieces(const BubbleFace& face) : grid_(face.fixed) {
 }
 
 double ShortPieces::limited(PlanePoint p, double size_m) const {
-  if (!(size_m > 0.0)) return size_m;
+  if (!is_size(size_m)) return size_m;
   double least = size_m;
   grid_.for_each_about(p, [&](std::uint32_t i) {
     const double far = std::hypot(p.x - ends_[i].at.x, p.y - ends_[i].at.y);

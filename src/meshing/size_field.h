@@ -40,7 +40,7 @@ struct SizeFieldOptions {
 /// Frame    the plane of the polygon, as `FlatPolygon::flat`.
 /// Units    metres.
 /// Threads  immutable after construction; may be shared.
-/// Cost     a sparse factorisation: 5 to 10 us per node; 10 ns per question.
+/// Cost     a sparse factorisation: 5 to 10 us per node.
 class SizeField {
  public:
   /// @param samples  on the polygon; without any the size is `most_m`

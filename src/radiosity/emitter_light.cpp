@@ -8,6 +8,7 @@
 #include <numeric>
 #include <set>
 
+#include "core/parallel.h"
 #include "core/random.h"
 #include "form_factors/contour_factor.h"
 #include "meshing/mesh_soup.h"
@@ -18,6 +19,7 @@ namespace {
 constexpr int kFirstRays = 16;  // at most, that must agree
 constexpr int kMoreRays = 4;    // times as many where they do not
 constexpr double kFar = 4.0;    // radii, beyond which a lamp is a point for the first look
+constexpr std::size_t kGrain = 64;
 constexpr double kEdgeVariance = 0.19;
 constexpr double kFlush = 1e-4;  // of the distance: what is met so near the lamp is part of it
 
@@ -182,26 +184,60 @@ EmitterLight::Direct EmitterLight::at(Vec3 position, Vec3 normal, int rays,
   const int first = std::min(kFirstRays, rays / 8);
   if (std::accumulate(rough.begin(), rough.end(), 0.0) > kMostView) return direct;
   for (std::uint32_t k = 0; k < lamp_.size(); ++k) {
-    const Lamp& lamp = lamp_[k];
-    const double lm = luminance_of(lamp.exitance);
+    const double lm = luminance_of(lamp_[k].exitance);
     if (!(rough[k] * lm > 0.0) || rough[k] * lm < kFaint * sum) continue;
-    direct.lamp.push_back(k);
-    double share = seen(k, position, normal, first);
-    if (!(share > 0.0)) continue;
-    const double whole = factor(lamp, position, normal);
-    if (share < 1.0 - 1e-12) {
-      double deviation = 0.0;
-      for (int n = kMoreRays * first;; n *= kMoreRays) {
-        share = seen(k, position, normal, n);
-        deviation = whole * std::sqrt(kEdgeVariance / std::pow(n, 1.5));
-        const double light = whole * share * lm + luminance_of(direct.lux);
-        if (n >= rays || deviation * lm <= kSettled * light) break;
-      }
-      direct.variance += std::pow(deviation * lm, 2);
-    }
-    direct.lux = direct.lux + (whole * share) * lamp.exitance;
+    add_lamp(k, position, normal, {first, rays}, direct);
   }
   return direct;
+}
+
+void EmitterLight::add_lamp(std::uint32_t number, Vec3 position, Vec3 normal, Rays rays,
+                            Direct& direct) const {
+  const Lamp& lamp = lamp_[number];
+  const double lm = luminance_of(lamp.exitance);
+  direct.lamp.push_back(number);
+  double share = seen(number, position, normal, rays.first);
+  if (!(share > 0.0)) return;
+  const double whole = factor(lamp, position, normal);
+  if (share < 1.0 - 1e-12) {
+    double deviation = 0.0;
+    for (int n = kMoreRays * rays.first;; n *= kMoreRays) {
+      share = seen(number, position, normal, n);
+      deviation = whole * std::sqrt(kEdgeVariance / std::pow(n, 1.5));
+      const double light = whole * share * lm + luminance_of(direct.lux);
+      if (n >= rays.most || deviation * lm <= kSettled * light) break;
+    }
+    direct.variance += std::pow(deviation * lm, 2);
+  }
+  direct.lux = direct.lux + (whole * share) * lamp.exitance;
+}
+
+EmitterLight::Direct EmitterLight::at_pixel(Vec3 position, Vec3 normal) const {
+  std::vector<double> rough_lm;
+  for (const Lamp& lamp : lamp_) {
+    rough_lm.push_back(rough_factor(lamp, position, normal) * luminance_of(lamp.exitance));
+  }
+  const double sum = std::accumulate(rough_lm.begin(), rough_lm.end(), 0.0);
+  Direct direct;
+  for (std::uint32_t k = 0; k < lamp_.size(); ++k) {
+    const double share = rough_lm[k] / sum;
+    if (!(rough_lm[k] > 0.0) || share < kFaint) continue;
+    const int first = std::max(kPixelFirst / 8, static_cast<int>(share * kPixelFirst));
+    add_lamp(k, position, normal, {first, kPixelMost}, direct);
+  }
+  return direct;
+}
+
+std::vector<EmitterLight::Direct> EmitterLight::at_pixels(const Sensors& points,
+                                                          double lift_m) const {
+  std::vector<Direct> light(points.size());
+  if (!is_any()) return light;
+  parallel_for(points.size(), kGrain, [&](IndexRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      light[i] = at_pixel(points.position[i] + lift_m * points.normal[i], points.normal[i]);
+    }
+  });
+  return light;
 }
 
 }  // namespace tenku

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/rgb.h"
+#include "illuminance/sensor.h"
 #include "meshing/element_mesh.h"
 #include "radiosity/side_points.h"
 #include "radiosity/surface_light.h"
@@ -33,6 +34,7 @@ class EmitterLight {
  public:
   static constexpr double kFaint = 0.015, kMostView = 0.6, kSettled = 0.001;
   static constexpr std::size_t kMostLamps = 512;
+  static constexpr int kPixelFirst = 64, kPixelMost = 256;
 
   /// @param mesh  kept by reference
   EmitterLight(const ElementMesh& mesh, const SidePoints& points, const SurfaceLight& surfaces,
@@ -52,6 +54,13 @@ class EmitterLight {
   Direct at(Vec3 position, Vec3 normal, int rays,
             std::span<const std::uint8_t> in_sight = {}) const;
 
+  /// The same for points of a picture, each beside its neighbours: lamps are not left to rows for
+  /// being near, which would show as an edge, and those that give most of the light have more rays
+  /// that must agree before they are believed (one of kPixelFirst may be wrong, unseen).
+  /// @param points  on their surfaces
+  /// @return  [point]
+  std::vector<Direct> at_pixels(const Sensors& points, double lift_m) const;
+
   bool is_any() const { return !lamp_.empty(); }
   std::size_t size() const { return lamp_.size(); }
   /// Number of the lamp that an element is a part of, or `kNoLamp`.
@@ -70,7 +79,12 @@ class EmitterLight {
     double area_m2() const { return area_to.back(); }
   };
   void find_lamps(const SidePoints& points, const SurfaceLight& surfaces);
+  struct Rays {
+    int first, most;
+  };
   double rough_factor(const Lamp& lamp, Vec3 position, Vec3 normal) const;
+  Direct at_pixel(Vec3 position, Vec3 normal) const;
+  void add_lamp(std::uint32_t lamp, Vec3 position, Vec3 normal, Rays rays, Direct& direct) const;
   double factor(const Lamp& lamp, Vec3 position, Vec3 normal) const;
   double seen(std::uint32_t lamp, Vec3 position, Vec3 normal, int rays) const;
   bool hides(std::uint32_t element, std::uint32_t lamp, Vec3 point, double away) const;

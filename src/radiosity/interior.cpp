@@ -210,7 +210,7 @@ InteriorLight Interior::light(const LightRequest& request, Progress& progress) {
         solve_at_corners(problem, gather_, std::move(light.corners), light.is_lit, progress);
   }
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    light.points.reflected_lux[i] = luminance_of(light.corners.lux[i]);
+    light.points.set_reflected(i, light.corners.lux[i]);
     light.points.error_lux[i] =
         std::hypot(light.points.error_lux[i],
                    interval_lux(light.corners.variance[i], light.corners.mesh_lux[i])) +
@@ -272,6 +272,27 @@ InteriorSensors Interior::look_from(const Sensors& sensors) const {
   return look;
 }
 
+InteriorSensors Interior::look_from_pixels(const Sensors& points) const {
+  InteriorSensors look;
+  look.lamps_apart = true;
+  look.all.assign(points.size(), 1);
+  look.gather = std::make_unique<PointGather>(
+      mesh_, points, gather_options(options_, options_.sensor_resolution / 2));
+  look.lamps = emitters_.at_pixels(points, options_.lift_m);
+  return look;
+}
+
+void Interior::add_lamps(const Sensors& points, const InteriorLight& light,
+                         SensorIlluminance& values) const {
+  const auto lamps = emitters_.at_pixels(points, options_.lift_m);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Rgb lux = light.lamp_scale * lamps[i].lux;
+    values.set_reflected(i, values.reflected_rgb[i] + lux);
+    const double interval = interval_lux(lamps[i].variance, 0.0);
+    values.error_lux[i] = std::hypot(values.error_lux[i], light.lamp_scale * interval);
+  }
+}
+
 void Interior::add_reflected(InteriorSensors& sensors, const InteriorLight& light,
                              SensorIlluminance& values, Progress& progress) const {
   const CornerLight& corners = light.corners;
@@ -309,7 +330,8 @@ void Interior::add_reflected(InteriorSensors& sensors, const InteriorLight& ligh
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double mesh_lux = 0.5 * (mesh_part[i][0] + mesh_part[i][1]);
     const double of_lamps = light.lamp_scale * light.lamp_scale * sensors.lamps[i].variance;
-    values.reflected_lux[i] = luminance_of(mean_of(looks[i]));
+    const double lamps = sensors.lamps_apart ? light.lamp_scale : 0.0;
+    values.set_reflected(i, mean_of(looks[i]) + -lamps * sensors.lamps[i].lux);
     values.error_lux[i] =
         std::hypot(values.error_lux[i], interval_lux(variance[i] + of_lamps, mesh_lux)) +
         light_under_way(corners, values.reflected_lux[i]);

@@ -65,6 +65,7 @@ struct InteriorLight {
 
 /// Sensors with their form factors, for `Interior::add_reflected`.
 struct InteriorSensors {
+  bool lamps_apart = false;  ///< whether light straight from lamps is left to `add_lamps`
   std::unique_ptr<PointGather> gather;
   std::vector<EmitterLight::Direct> lamps;
   std::vector<std::uint8_t> all;  ///< [sensor], 1
@@ -89,6 +90,12 @@ class Interior {
   /// Sensors that look into the mesh once for many lights.
   /// @param sensors  kept by reference
   InteriorSensors look_from(const Sensors& sensors) const;
+  /// Some points of a picture, whose light is blended at the others: half as many lines, and
+  /// without lamps, whose shadows are too sharp to be blended.
+  InteriorSensors look_from_pixels(const Sensors& points) const;
+  /// Adds the light straight from lamps to points of a picture.
+  void add_lamps(const Sensors& points, const InteriorLight& light,
+                 SensorIlluminance& values) const;
   /// Adds the light from sides to direct light on sensors. Those that are not within half of the
   /// tolerance look more finely, and stay so.
   void add_reflected(InteriorSensors& sensors, const InteriorLight& light,

@@ -14,10 +14,20 @@ constexpr int kAllBounces = 5;
 }  // namespace
 
 SceneReflection::SceneReflection(const LitScene& lit, Reflection how) : lit_(lit), how_(how) {
-  finder_ = [this](const Sensors& sensors, SensorIlluminance& values, Progress& progress) {
+  finder_.all = [this](const Sensors& sensors, SensorIlluminance& values, Progress& progress) {
     if (!light_) solve(progress);
     InteriorSensors look = interior_->look_from(sensors);
     interior_->add_reflected(look, *light_, values, progress);
+  };
+  finder_.without_lamps = [this](const Sensors& points, SensorIlluminance& values,
+                                 Progress& progress) {
+    if (!light_) solve(progress);
+    InteriorSensors look = interior_->look_from_pixels(points);
+    interior_->add_reflected(look, *light_, values, progress);
+  };
+  finder_.lamps = [this](const Sensors& points, SensorIlluminance& values, Progress& progress) {
+    if (!light_) solve(progress);
+    interior_->add_lamps(points, *light_, values);
   };
 }
 

@@ -1,6 +1,5 @@
 #include "view/shading_points.h"
 
-#include <array>
 #include <atomic>
 #include <cmath>
 
@@ -10,14 +9,11 @@
 namespace tenku {
 namespace {
 
-constexpr int kRaysPerPixel = 4;
+constexpr int kRaysPerPixel = static_cast<int>(kRayPlaces.size());
 constexpr int kMostMirrors = 4;
-// A rotated grid: no two rays of a pixel share a row or a column.
-constexpr std::array<std::array<double, 2>, kRaysPerPixel> kPlace{
-    {{0.125, 0.625}, {0.375, 0.125}, {0.625, 0.875}, {0.875, 0.375}}};
 
 struct Point {
-  Vec3 position, normal;
+  Vec3 position, sum, normal;  ///< the sum of all positions
   std::uint32_t material, triangle;
   std::uint64_t surface;
   Rgb weight;
@@ -59,8 +55,8 @@ class PixelTracer {
       const Vec3 normal = dot(face, direction) < 0.0 ? face : -face;
       const std::uint32_t index = rays_.soup().material[hit->triangle];
       const Vec3 position = rays_.on_plane(hit->triangle, origin + hit->distance_m * direction);
-      add({position, normal, index, hit->triangle, surface_key(rays_, hit->triangle, normal),
-           weight, 1, mirrors == 0},
+      add({position, position, normal, index, hit->triangle,
+           surface_key(rays_, hit->triangle, normal), weight, 1, mirrors == 0},
           pixel);
       const double mirror = rays_.materials()[index].mirror;
       if (!(mirror > 0.0) || mirrors == kMostMirrors) return;
@@ -73,6 +69,20 @@ class PixelTracer {
     }
   }
 
+  void move_to_middles(Vec3 eye, PixelPoints& pixel) {
+    for (int k = 0; k < pixel.count; ++k) {
+      Point& point = pixel.point[static_cast<std::size_t>(k)];
+      if (point.rays == 1 || !point.direct) continue;
+      const Vec3 middle = (1.0 / point.rays) * point.sum;
+      ++sent;
+      const auto hit = rays_.first_hit(eye, normalized(middle - eye));
+      if (!hit) continue;
+      const Vec3 face = rays_.normal(hit->triangle);
+      const Vec3 normal = dot(face, point.normal) > 0.0 ? face : -face;
+      if (surface_key(rays_, hit->triangle, normal) == point.surface) point.position = middle;
+    }
+  }
+
   std::uint64_t sent = 0;
 
  private:
@@ -81,6 +91,7 @@ class PixelTracer {
       Point& known = pixel.point[static_cast<std::size_t>(k)];
       if (known.surface != point.surface || known.direct != point.direct) continue;
       known.weight = known.weight + point.weight;
+      known.sum = known.sum + point.sum;
       ++known.rays;
       return;
     }
@@ -111,7 +122,7 @@ void append(const PixelPoints& pixel, std::uint32_t index, ShadingPoints& points
 }  // namespace
 
 ShadingPoints find_shading_points(const PerspectiveCamera& camera, const RayVisibility& rays,
-                                  const Backdrop& backdrop, Progress& progress) {
+                                  const Backdrop& backdrop, PointPlace place, Progress& progress) {
   const auto width = static_cast<std::size_t>(camera.width());
   const auto height = static_cast<std::size_t>(camera.height());
   std::vector<PixelPoints> pixels(width * height);
@@ -122,10 +133,13 @@ ShadingPoints find_shading_points(const PerspectiveCamera& camera, const RayVisi
     PixelTracer tracer(rays, backdrop);
     for (std::size_t y = rows.begin; y < rows.end; ++y) {
       for (std::size_t x = 0; x < width; ++x) {
-        for (const auto& [dx, dy] : kPlace) {
+        for (const auto& [dx, dy] : kRayPlaces) {
           const Vec3 direction =
               camera.ray(static_cast<double>(x) + dx, static_cast<double>(y) + dy);
           tracer.trace(camera.eye(), direction, pixels[y * width + x]);
+        }
+        if (place == PointPlace::Middle) {
+          tracer.move_to_middles(camera.eye(), pixels[y * width + x]);
         }
       }
     }

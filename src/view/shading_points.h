@@ -1,6 +1,7 @@
 /// What a camera's rays meet: the sensors of a picture.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -65,8 +66,18 @@ struct Backdrop {
   }
 };
 
+/// Where in a pixel its rays go. A rotated grid: no two share a row or a column.
+inline constexpr std::array<std::array<double, 2>, 4> kRayPlaces{
+    {{0.125, 0.625}, {0.375, 0.125}, {0.625, 0.875}, {0.875, 0.375}}};
+
+/// Where the point of several rays of a pixel lies.
+enum class PointPlace {
+  First,  ///< where the first of them met its surface
+  Middle  ///< in the middle of them, if that is on the surface and in sight
+};
+
 /// Four rays a pixel; those on one surface become one point.
 ShadingPoints find_shading_points(const PerspectiveCamera& camera, const RayVisibility& rays,
-                                  const Backdrop& backdrop, Progress& progress);
+                                  const Backdrop& backdrop, PointPlace place, Progress& progress);
 
 }  // namespace tenku

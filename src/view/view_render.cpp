@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "core/parallel.h"
+#include "view/pixel_sharing.h"
 #include "view/shading_points.h"
 
 namespace tenku {
@@ -55,6 +56,20 @@ IlluminanceOptions options_of(const ViewRequest& request) {
   options.first_slices = 8;    // averaged with the pixels around
   options.seed = request.seed;
   return options;
+}
+
+/// Light between surfaces by the finder of the request: what varies slowly is shared, light of
+/// lamps, with its shadows, is found for each point.
+void add_found_reflection(const ViewRequest& request, const ShadingPoints& points,
+                          SensorIlluminance& light, Progress& progress) {
+  const auto find = [&](std::span<const std::uint32_t> chosen) {
+    SensorIlluminance values(chosen.size());
+    for (std::size_t k = 0; k < chosen.size(); ++k) values.sky_lux[k] = light.sky_lux[chosen[k]];
+    request.reflection->without_lamps(sensors_of(points.sensors, chosen), values, progress);
+    return values;
+  };
+  share_by_pixels(points, request.tolerance_pct / 100.0, find, light);
+  request.reflection->lamps(points.sensors, light, progress);
 }
 
 /// The triangles that the points lie on, and how large they would be in the picture.
@@ -114,7 +129,7 @@ void compose(const ShadingPoints& points, const SensorIlluminance& light,
   for (std::size_t i = 0; i < points.sensors.size(); ++i) {
     const std::size_t p = points.pixel_index[i];
     const Material& material = materials[points.material[i]];
-    const Rgb leaving = material.emission_lm_m2 + light.total_lux(i) * material.reflectance;
+    const Rgb leaving = material.emission_lm_m2 + light.total_rgb(i) * material.reflectance;
     result.luminance.pixels[p] =
         result.luminance.pixels[p] + (1.0 / kPi) * (points.weight[i] * leaving);
     if (!points.is_seen_directly[i]) continue;
@@ -145,7 +160,9 @@ struct ViewWork {
   ViewWork(const ViewRequest& request, const Engines& engines, const DaylightSource& source,
            const SkyModel* sky, Progress& progress)
       : camera(request.view),
-        points(find_shading_points(camera, engines.rays(), backdrop_of(source, sky), progress)),
+        points(find_shading_points(
+            camera, engines.rays(), backdrop_of(source, sky),
+            request.reflection != nullptr ? PointPlace::Middle : PointPlace::First, progress)),
         method(request.method) {
     method.eye = camera.eye();
     method.picture_tolerance_pct = request.tolerance_pct;
@@ -166,10 +183,11 @@ RenderedView render_view(const ViewRequest& request, const Engines& engines,
   IlluminanceResult light =
       illuminate(points.sensors, engines, source, options_of(request), work.method, progress);
   smooth_sky(points, light.values);
-  if (request.bounces > 0 && points.sensors.size() > 0) {
+  if (request.reflection != nullptr && points.sensors.size() > 0) {
+    add_found_reflection(request, points, light.values, progress);
+  } else if (request.bounces > 0 && points.sensors.size() > 0) {
     IlluminanceOptions options = options_of(request);
     options.bounces = request.bounces;
-    options.reflection = request.reflection;
     // Some twenty representatives are blended in a pixel.
     const ReflectedSharing sharing(points.sensors, sharing_by_pixels(points, work.camera),
                                    engines.rays());

@@ -18,7 +18,7 @@ struct ViewRequest {
   double tolerance_pct = 2.0;  ///< of the light on what is seen; see `RenderedView`
   int bounces = 5;
   std::uint64_t seed = 1;
-  const ReflectionFinder* reflection = nullptr;  ///< in place of paths. Borrowed
+  const ReflectionFinder* reflection = nullptr;  ///< in place of paths and `bounces`. Borrowed
   LightMethod method;                            ///< its eye and polygons are those of the view
 };
 
@@ -26,8 +26,8 @@ struct ViewRequest {
 ///
 /// Every pixel is four rays; those that meet the same surface share one sensor. Direct light is
 /// found for each sensor; reflected light, which varies slowly, for one sensor in a block of
-/// pixels on the same surface, and is shared (ReflectedSharing). Skylight is averaged with the
-/// nearest pixels on the same surface.
+/// pixels on the same surface, and is shared (ReflectedSharing; `share_by_pixels` where the request
+/// has a finder). Skylight is averaged with the nearest pixels on the same surface.
 ///
 /// Shape    every array [row][column], row 0 at the top.
 /// Error    a pixel's standard error is held to the tolerance, not its four-fold: pictures are

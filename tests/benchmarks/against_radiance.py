@@ -27,6 +27,7 @@ import time
 from error_time_chart import write_chart
 
 PROCESSES = 2
+LONG_S = 10.0  # of the processor
 HORIZONTAL_LUX = 10000.0
 # L(zenith) (1 + 2 sin altitude) / 3 gives 7 pi / 9 L(zenith) on the horizontal plane
 # (ISO 15469:2004). Radiance values are lux here: nothing is divided by its 179 lm/W.
@@ -55,7 +56,7 @@ class Scene:
     sensors: str
     reflectance: dict         # by material
     radiance: list            # (label, options)
-    tenku: list
+    tenku: dict               # label of the line -> like `radiance`
     is_relative: bool         # error: RMS of relative errors, or RMS by the mean
     title: str
     chart: str                # file name
@@ -64,14 +65,18 @@ class Scene:
 CITY = Scene(
     "city", "city.obj.gz", "city_sensors.pts", {"ground": 0.2, "wall": 0.5},
     [(f"-ad {n}", ["-ab", "1", "-ad", str(n)]) for n in (64, 256, 1024, 4096)],
-    [(f"{t:g} %", ["--bounces", "0", "--tolerance", str(t)]) for t in (30, 12, 5, 3, 1.6, 0.8)],
+    {"tenku": [(f"{t:g} %", ["--bounces", "0", "--tolerance", str(t)])
+               for t in (30, 12, 5, 3, 1.6, 0.8)]},
     False, "City, 250,002 triangles, 10,000 sensors, overcast sky, no reflection",
     "against_radiance.svg")
 ROOM = Scene(
     "room", "room.obj", "room_sensors.pts", {"floor": 0.2, "wall": 0.5, "ceil": 0.7},
     [(f"-ad {n}", ["-ab", "6", "-ad", str(n)]) for n in (512, 2048, 8192)],
-    [(f"{t} %", ["--bounces", "5", "--tolerance", str(t)]) for t in (10, 5, 3)],
-    True, "Room with a window, 400 sensors, overcast sky, five reflections",
+    {"tenku, paths": [(f"{t} %", ["--reflection", "paths", "--bounces", "5", "--tolerance", str(t)])
+                      for t in (10, 5, 3)],
+     "tenku, radiosity": [(f"{t} %", ["--reflection", "radiosity", "--tolerance", str(t)])
+                          for t in (20, 10, 5, 2)]},
+    True, "Room with a window, 400 sensors, overcast sky",
     "against_radiance_room.svg")
 
 
@@ -161,9 +166,8 @@ class Radiance:
 
 
 class Tenku:
-    name = "tenku"
-
-    def __init__(self, program, scene, reference, work):
+    def __init__(self, name, program, scene, reference, work):
+        self.name = name
         self.work, self.out = work, work / "tenku.csv"
         materials = work / f"{scene.name}.toml"
         materials.write_text("".join(f"[{name}]\nreflectance = {r}\n"
@@ -182,33 +186,37 @@ class Tenku:
 
 
 def take_turns(jobs, rounds):
-    """Runs all jobs `rounds` times, the two programs by turns.
+    """Runs all jobs `rounds` times, the two programs by turns; long ones once, as the processor
+    time of a long run spreads little.
 
     @return  job -> its runs, as (watch, stage seconds, values)"""
     runs = {}
     for turn in range(rounds):
         for job, run in jobs:
-            if job[0] == Radiance.name and turn % 2 == 1 and rounds > 3:
-                continue  # its spread is small, and its runs are long
+            if turn > 0 and runs[job][-1][0].cpu_s > LONG_S:
+                continue
             runs.setdefault(job, []).append(run(job[2]))
             watch, stage_s, _ = runs[job][-1]
             load = os.getloadavg()[0]
-            print(f"{job[0]:9} {job[1]:9} {watch.wall_s:7.2f} s whole, {stage_s:7.2f} s stage, "
+            print(f"{job[0]:17} {job[1]:9} {watch.wall_s:7.2f} s whole, {stage_s:7.2f} s stage, "
                   f"{watch.cpu_s:7.2f} s processor, load {load:.1f}", flush=True)
     return runs
 
 
-def by_turns(first, second):
-    """a0 b0 a1 b1 ...; what is left of the longer one at its end."""
-    pairs = max(len(first), len(second))
-    return [item for k in range(pairs) for half in (first, second) for item in half[k:k + 1]]
+def by_turns(*lists):
+    """a0 b0 a1 b1 ...; what is left of the longer ones at its end."""
+    most = max(len(one) for one in lists)
+    return [item for k in range(most) for one in lists for item in one[k:k + 1]]
 
 
 def measure(scene, options, work):
     radiance = Radiance(options.radiance, scene, options.reference, work)
-    tenku = Tenku(options.tenku, scene, options.reference, work)
+    programs = [(radiance, scene.radiance)] + [
+        (Tenku(name, options.tenku, scene, options.reference, work), settings)
+        for name, settings in scene.tenku.items()]
     jobs = [[((program.name, label, tuple(given)), program.run) for label, given in settings]
-            for program, settings in ((radiance, scene.radiance), (tenku, scene.tenku))]
+            for program, settings in programs]
+    jobs = [[job for job in one if options.only in (None, job[0][0])] for one in jobs]
     runs = take_turns(by_turns(*jobs), options.rounds)
     truth = read_truth(scene, options.reference)
     for (program, label, _), those in runs.items():
@@ -226,13 +234,14 @@ def measure(scene, options, work):
 def draw(scene, rows, path):
     """Processor time: on a busy machine the clock tells more of the others than of these two."""
     def points(program):
-        return [(row["processor_s"], row["rms_error_pct"], row["setting"])
+        return [(float(row["processor_s"]), float(row["rms_error_pct"]), row["setting"])
                 for row in rows if row["program"] == program]
     write_chart(path, scene.title,
                 ("processor time of the whole program, in two processes or threads / s",
                  "RMS error / %" if scene.is_relative else "RMS error by the mean / %"),
                 [("Radiance, octree made before", points(Radiance.name)),
-                 ("tenku, by --tolerance", points(Tenku.name))])
+                 *((f"{name}, by --tolerance" if name == "tenku" else name, points(name))
+                   for name in scene.tenku)])
 
 
 def main():
@@ -240,7 +249,10 @@ def main():
     for name in ("tenku", "radiance", "reference", "out"):
         parser.add_argument(f"--{name}", type=lambda p: pathlib.Path(p).resolve(), required=True)
     parser.add_argument("--scenes", default="city,room")
-    parser.add_argument("--rounds", type=int, default=5, help="of tenku; Radiance has every other")
+    parser.add_argument("--rounds", type=int, default=5, help="of each setting; those that take over 10 s of the processor run once")
+    parser.add_argument("--only", help="program or line of the chart that is timed; default: all")
+    parser.add_argument("--beside", type=pathlib.Path,
+                        help="against_radiance.csv of another run, whose rows are charted too")
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
     work = pathlib.Path(tempfile.mkdtemp(prefix="against_radiance_"))
@@ -249,6 +261,10 @@ def main():
         if scene.name not in options.scenes.split(","):
             continue
         own = list(measure(scene, options, work))
+        if options.beside:
+            with options.beside.open() as file:
+                own = [row for row in csv.DictReader(file)
+                       if row["scene"] == scene.name] + own
         draw(scene, own, options.out / scene.chart)
         rows += own
     with open(options.out / "against_radiance.csv", "w", newline="") as file:

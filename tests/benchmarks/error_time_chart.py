@@ -53,7 +53,7 @@ def draw_axes(x, y, x_label, y_label):
 
 
 def draw_series(number, points, x, y):
-    """Line and dots; labels above the dots of the first, below those of the second."""
+    """Line and dots; labels above the dots of the first, below those of the others."""
     colour = COLOURS[number]
     path = " ".join(f"{x.at(t):.1f},{y.at(e):.1f}" for t, e, _ in points)
     parts = [f'<polyline points="{path}" fill="none" stroke="{colour}" '

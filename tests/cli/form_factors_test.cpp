@@ -34,6 +34,23 @@ TEST(FormFactorsCommand, WritesTheMatrixWithRowSums) {
   EXPECT_LT(summary["reciprocity_defect"].get<double>(), 1e-9);
 }
 
+TEST(FormFactorsCommand, TellsWhatMeetsBacksFromWhatEscapes) {
+  const auto folder = test_folder();
+  std::string turned = kSquares;
+  turned.replace(turned.find("f 8 7 6 5"), 9, "f 5 6 7 8");
+  write_text(folder / "s.obj", turned);
+  for (const std::string method : {"analytic", "hemisphere-scanline"}) {
+    const auto run = run_tenku(
+        "form-factors s.obj --up z --out F.csv --json --resolution 64 --method " + method, folder);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const auto summary = nlohmann::json::parse(run.out);
+    EXPECT_EQ(summary["row_sums"]["low"].get<double>(), 0.0);
+    EXPECT_NEAR(summary["to_backs"]["low"].get<double>(), 0.199824895698387, 0.002) << method;
+    EXPECT_EQ(summary["to_backs"]["high"].get<double>(), 0.0);  // looks away
+    EXPECT_NE(run.err.find("meets backs"), std::string::npos) << run.err;
+  }
+}
+
 TEST(FormFactorsCommand, TakesEveryMethod) {
   const auto folder = test_folder();
   write_text(folder / "s.obj", kSquares);

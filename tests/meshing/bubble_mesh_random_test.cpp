@@ -3,7 +3,9 @@
 #include <chrono>
 #include <cstdlib>
 #include <map>
+#include <numeric>
 #include <string>
+#include <vector>
 
 #include "core/random.h"
 #include "meshing/bubble_mesh.h"
@@ -185,9 +187,14 @@ class Maker {
   std::uint64_t number_;
 };
 
-int asked() {
+/// Which polygons, by number.
+std::vector<int> asked() {
   const char* number = std::getenv("TENKU_RANDOM_POLYGONS");
-  return number != nullptr ? std::atoi(number) : 270;
+  std::vector<int> numbers(number != nullptr ? static_cast<std::size_t>(std::atoi(number)) : 90);
+  std::iota(numbers.begin(), numbers.end(), 0);
+  // Of these, constraints along the outline once made triangles without area.
+  if (number == nullptr) numbers.insert(numbers.end(), {378, 1234, 3672, 3853, 4033});
+  return numbers;
 }
 
 struct Count {
@@ -203,7 +210,7 @@ double seconds() {
 
 TEST(BubbleMeshRandom, EachIsFilledOrRefusedByName) {
   Count counts[kKinds];
-  for (int i = 0; i < asked(); ++i) {
+  for (const int i : asked()) {
     SCOPED_TRACE("polygon " + std::to_string(i));
     const Model model = Maker(static_cast<std::uint64_t>(i)).model();
     const std::vector<FlatPolygon> polygon{model.polygon};

@@ -352,6 +352,30 @@ TEST(BubbleMesh, NamesWhatItRefuses) {
                                                   "TooMany"}));
 }
 
+TEST(BubbleMesh, BearsSizesThatAreNoneInside) {
+  const std::vector<FlatPolygon> square{rectangle(4.0, 4.0)};
+  for (const double bad : {std::nan(""), 0.0, -1.0, 1e-300, 1e300, HUGE_VAL}) {
+    const auto size_at = [=](std::size_t, PlanePoint p) {
+      return std::hypot(p.x - 2.0, p.y - 2.0) < 1.0 ? bad : 0.2;
+    };
+    const BubbleMesh made = bubble_mesh(square, size_at, {}, {});
+    ASSERT_TRUE(made.flaws.empty());
+    expect_fills(square[0], made.meshes[0], kWeld);
+  }
+}
+
+TEST(BubbleMesh, RefusesBadSizesBesideKeptMeshes) {
+  const auto polygons = room_with_pillar();
+  std::vector<PolygonMesh> kept = meshed(polygons, 0.5).meshes;
+  kept[0] = {};
+  BubbleOptions options;
+  options.kept = kept;
+  const auto size_at = [](std::size_t, PlanePoint) { return std::nan(""); };
+  const BubbleMesh made = bubble_mesh(polygons, size_at, {}, options);
+  ASSERT_EQ(made.flaws.size(), 1U);
+  EXPECT_EQ(made.flaws[0].kind, BubbleFlaw::Kind::BadSize);
+}
+
 TEST(BubbleMesh, RefusesNumbersThatDoNotFit) {
   const std::vector<FlatPolygon> square{rectangle(1.0, 1.0)};
   const auto size_at = [](std::size_t, PlanePoint) { return 0.3; };

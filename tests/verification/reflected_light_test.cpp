@@ -49,6 +49,25 @@ TEST(ReflectedLight, InAGlowingFurnaceIsTheGeometricSeries) {
   EXPECT_LE(worst.worst(), 0.01);
 }
 
+TEST(ReflectedLight, InAColouredFurnaceIsTheGeometricSeriesOfEachChannel) {
+  TestScene scene;
+  scene.materials[0] = lamp(0.0, 0.0);
+  scene.materials[0].reflectance = {0.8, 0.5, 0.2};
+  scene.materials[0].emission_lm_m2 = {100.0, 400.0, 1600.0};
+  scene.box({0, 0, 0}, {4, 5, 3});
+  Sensors sensors;
+  sensors.position = {{1, 2, 1}, {3.5, 0.5, 2.5}};
+  sensors.normal = {kZenith, {1, 0, 0}};
+  const auto result = illuminate(scene, sensors, {}, with_bounces(1.0, 60));
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    const Rgb found = result.values.reflected_rgb[i];
+    EXPECT_NEAR(found.r / (100.0 / 0.2), 1.0, 0.02);
+    EXPECT_NEAR(found.g / (400.0 / 0.5), 1.0, 0.02);
+    EXPECT_NEAR(found.b / (1600.0 / 0.8), 1.0, 0.02);
+    EXPECT_NEAR(luminance_of(found) / result.values.reflected_lux[i], 1.0, 1e-12);
+  }
+}
+
 TEST(ReflectedLight, OfAGlowingPatchIsItsConfigurationFactor) {
   const ReferenceTable table(TENKU_TEST_REFERENCE "/illuminance/diffuse_patch.csv");
   for (const double half : {2.0, 250.0}) {
