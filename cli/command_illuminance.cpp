@@ -54,9 +54,7 @@ int illuminance(const IlluminanceCommandOptions& options, const CommandContext& 
   how.reflection = reflection.finder(how, method);
   IlluminanceResult result =
       illuminate(placed.sensors, lit.engines(), lit.source(), how, method, context.progress);
-  for (Finding& finding : reflection.take_findings()) {
-    result.findings.push_back(std::move(finding));
-  }
+  reflection.tell(result.findings);
   write_result(options, lit, placed, result);
   return close_calculation(context.options, lit,
                            {.start = start,

@@ -37,18 +37,13 @@ struct RadiosityCommandOptions {
   bool wants_sensors() const { return !sensors.empty() || work_plane.has_value(); }
 };
 
-bool ends_with(const std::string& text, std::string_view ending) {
-  return text.size() >= ending.size() &&
-         text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
-}
-
 void check_request(const RadiosityCommandOptions& options) {
   check_mesh_options(options.mesh);
   if (!options.sensors.empty() && options.work_plane) {
     throw InputError("give either --sensors or --work-plane");
   }
-  const bool is_table = options.lit.out == "-" || ends_with(options.lit.out, ".csv");
-  if (!is_table && !ends_with(options.lit.out, ".vtp")) {
+  const bool is_table = options.lit.out == "-" || options.lit.out.ends_with(".csv");
+  if (!is_table && !options.lit.out.ends_with(".vtp")) {
     throw InputError("cannot write '" + options.lit.out + "': the ending must be .csv or .vtp");
   }
   if (is_table != options.wants_sensors()) {
@@ -172,10 +167,7 @@ class RadiosityRun {
     const Stopwatch watch;
     LightRun run;
     Sky sky = resolve_sky(row.site, row.sky, lit_.site());
-    DaylightSource source;
-    if (sky.model) source.sky = std::make_unique<SkyTable>(*sky.model);
-    source.sun = sky.sun;
-    source.model = sky.model.get();
+    const DaylightSource source = daylight_of(sky);
     run.sky = sky.description;
     run.open_lux = source.unobstructed_lux();
     run.has_sun = source.sun.normal_illuminance > Illuminance(0.0);

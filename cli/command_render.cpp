@@ -35,7 +35,7 @@ int render(const RenderOptions& options, const CommandContext& context) {
       reflection.finder(illuminance_options(options.lit, context.options), request.method);
   RenderedView view =
       render_view(request, lit.engines(), lit.source(), lit.sky().model.get(), context.progress);
-  for (Finding& finding : reflection.take_findings()) view.findings.push_back(std::move(finding));
+  reflection.tell(view.findings);
   if (auto inside = eye_inside(request.view.eye, lit.scene(), lit.rays())) {
     view.findings.push_back(std::move(*inside));
   }

@@ -9,4 +9,12 @@ double DaylightSource::unobstructed_lux() const {
   return (sky ? sky->horizontal_lux() : 0.0) + from_sun;
 }
 
+DaylightSource daylight_of(const Sky& sky) {
+  DaylightSource source;
+  if (sky.model) source.sky = std::make_unique<SkyTable>(*sky.model);
+  source.sun = sky.sun;
+  source.model = sky.model.get();
+  return source;
+}
+
 }  // namespace tenku

@@ -6,6 +6,7 @@
 
 #include "illuminance/element_sky.h"
 #include "illuminance/sky_table.h"
+#include "sky_models/make_sky.h"
 #include "sky_models/sky_model.h"
 #include "sky_models/sky_partition.h"
 
@@ -24,5 +25,8 @@ struct DaylightSource {
   /// Of the sky, 0 where sensors sum slices.
   std::size_t element_count() const { return elements ? elements->size() : 0; }
 };
+
+/// Sun and skylight of a sky, whose model it refers to.
+DaylightSource daylight_of(const Sky& sky);
 
 }  // namespace tenku

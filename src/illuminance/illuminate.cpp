@@ -206,6 +206,10 @@ void tell_missed(IlluminanceResult& result) {
   if (finding.count > 0) result.findings.push_back(std::move(finding));
 }
 
+namespace {
+
+/// After the reflected light has been added to direct light: what is still dark, and what is not
+/// exact enough for `options`.
 void judge_whole(const Sensors& sensors, const DaylightSource& source,
                  const IlluminanceOptions& options, IlluminanceResult& result) {
   const ErrorBudget budget(options.tolerance_pct, options.floor_share * source.unobstructed_lux());
@@ -216,6 +220,8 @@ void judge_whole(const Sensors& sensors, const DaylightSource& source,
   }
   tell_missed(result);
 }
+
+}  // namespace
 
 IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
                              const DaylightSource& source, const IlluminanceOptions& options,

@@ -78,11 +78,6 @@ bool is_dark(const SensorIlluminance& values, std::size_t sensor);
 void find_dark_sensors(const Sensors& sensors, const SensorIlluminance& values,
                        std::vector<Finding>& findings);
 
-/// After the reflected light has been added to direct light: what is still dark, and what is not
-/// exact enough for `options`.
-void judge_whole(const Sensors& sensors, const DaylightSource& source,
-                 const IlluminanceOptions& options, IlluminanceResult& result);
-
 /// Counts the sensors out of tolerance, and says so in the findings.
 void tell_missed(IlluminanceResult& result);
 

@@ -58,7 +58,7 @@ struct MeshRound {
 /// asks for. With sizes by hand there is one round, as in the source; otherwise rounds go on until
 /// the tolerance holds or nothing is to be gained.
 ///
-/// Source   for bubbles: T. Ito et al. (sizes_by_change.h); for `Refine`: threshold_refinement.h
+/// Source   for bubbles: T. Itoh et al. (sizes_by_change.h); for `Refine`: threshold_refinement.h
 class MeshLoop {
  public:
   /// @param materials  kept by reference

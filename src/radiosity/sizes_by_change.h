@@ -11,7 +11,7 @@ namespace tenku {
 /// dI of each point: the mean over its neighbours of the difference in illuminance by the distance.
 /// Nothing where no light comes.
 ///
-/// Source   T. Ito, A. Yamada, K. Shimada, M. Aono, R. Ohbuchi, "Adaptive meshing for radiosity
+/// Source   T. Itoh, A. Yamada, K. Shimada, M. Aono, R. Ohbuchi, "Adaptive meshing for radiosity
 /// using
 ///          bubble mesh method", eq. 1.
 /// @return  [point], lux a metre

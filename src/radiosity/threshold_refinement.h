@@ -16,7 +16,7 @@ namespace tenku {
 /// across an edge, on either face.
 ///
 /// Source   D. R. Baum, S. Mann, K. P. Smith and J. M. Winget, "Making radiosity usable", SIGGRAPH
-///          1991, as T. Ito et al. (see sizes_by_change.h) take it for comparison.
+///          1991, as T. Itoh et al. (see sizes_by_change.h) take it for comparison.
 /// @return  [element], lux
 std::vector<double> neighbour_difference(const LightOnMesh& light);
 

@@ -69,13 +69,11 @@ LitScene::LitScene(const std::filesystem::path& file, const ReadOptions& options
   engines_ = std::make_unique<Engines>(*soup_, scene_.materials, gl);
   progress.end(std::to_string(soup_->size()) + " triangles");
   sky_ = make_sky(site());
-  if (sky_.model) source_.sky = std::make_unique<SkyTable>(*sky_.model);
+  source_ = daylight_of(sky_);
   if (sky_.model && partition) {
     source_.elements =
         std::make_unique<ElementSky>(*sky_.model, partition_sky(*sky_.model, *partition));
   }
-  source_.sun = sky_.sun;
-  source_.model = sky_.model.get();
   source_.partition = partition;
 }
 

@@ -103,7 +103,7 @@ class StudyRun {
         reflection_.finder(illuminance_options_of(study_.calculation), request.method);
     RenderedView picture =
         render_view(request, lit_.engines(), lit_.source(), lit_.sky().model.get(), progress_);
-    take_findings(picture.findings);
+    reflection_.tell(picture.findings);
     add(eye_inside(request.view.eye, lit_.scene(), lit_.rays()), picture.findings);
     add(wide_texels(picture.regions, lit_.scene().frame), picture.findings);
     for (const std::string& format : view.formats) {
@@ -185,15 +185,11 @@ class StudyRun {
     options.reflection = reflection_.finder(options, method);
     IlluminanceResult result =
         illuminate(sensors, lit_.engines(), lit_.source(), options, method, progress_);
-    take_findings(result.findings);
+    reflection_.tell(result.findings);
     add(wide_texels(result.regions, lit_.scene().frame), result.findings);
     outcome_.out_of_tolerance += result.out_of_tolerance;
     report_.add_light(result);
     return result;
-  }
-
-  void take_findings(std::vector<Finding>& findings) {
-    for (Finding& finding : reflection_.take_findings()) findings.push_back(std::move(finding));
   }
 
   fs::path place(const std::string& name) {

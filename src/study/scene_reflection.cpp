@@ -1,5 +1,7 @@
 #include "study/scene_reflection.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "meshing/mesh_surfaces.h"
@@ -45,6 +47,11 @@ const ReflectionFinder* SceneReflection::finder(const IlluminanceOptions& option
   direct_.share_reflected_m = 0.0;
   method_ = method;
   return &finder_;
+}
+
+void SceneReflection::tell(std::vector<Finding>& findings) {
+  std::move(findings_.begin(), findings_.end(), std::back_inserter(findings));
+  findings_.clear();
 }
 
 void SceneReflection::solve(Progress& progress) {

@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "core/finding.h"
@@ -30,8 +29,8 @@ class SceneReflection {
   /// more; fewer are followed as paths.
   const ReflectionFinder* finder(const IlluminanceOptions& options, const LightMethod& method);
 
-  /// What meshing and solving have found since the last call.
-  std::vector<Finding> take_findings() { return std::exchange(findings_, {}); }
+  /// Appends what meshing and solving have found since the last call.
+  void tell(std::vector<Finding>& findings);
 
  private:
   bool is_by_radiosity(int bounces) const;

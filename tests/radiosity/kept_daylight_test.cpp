@@ -8,27 +8,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/side_lit_room.h"
 #include "support/test_scene.h"
 
 namespace tenku {
 namespace {
 
 using namespace testing_support;
-
-/// A room of 6 x 8 x 3 m with an opening of 3 x 1.5 m to the south, in the open.
-TestScene room() {
-  TestScene scene;
-  scene.level({0, 0, 6, 8}, 0.0);
-  scene.level({0, 0, 6, 8}, 3.0);
-  scene.wall({0, 0, 0, 8}, 0, 3);
-  scene.wall({6, 0, 6, 8}, 0, 3);
-  scene.wall({0, 8, 6, 8}, 0, 3);
-  scene.wall({0, 0, 1.5, 0}, 0, 3);
-  scene.wall({4.5, 0, 6, 0}, 0, 3);
-  scene.wall({1.5, 0, 4.5, 0}, 0, 0.9);
-  scene.wall({1.5, 0, 4.5, 0}, 2.4, 3);
-  return scene;
-}
 
 /// On the work plane, on the north wall, and outside on the west wall.
 Sensors sensors_in_room() {
@@ -60,7 +46,7 @@ void set_sun(DaylightSource& source, double altitude_deg, double azimuth_deg) {
 /// Overcast, then clear with the sun to the south: how the values of the latter lie to those of the
 /// integrator, eight times as exact.
 void expect_as_alone(bool has_sun) {
-  const TestScene scene = room();
+  const TestScene scene = side_lit_room();
   const Engines engines(scene.soup, scene.materials);
   const Sensors sensors = sensors_in_room();
   const auto overcast = numbered_sky(16, 0.0, 0.0), clear = numbered_sky(12, 40.0, 160.0);
@@ -91,7 +77,7 @@ TEST(KeptDaylight, OfAClearSkyIsThatOfTheIntegrator) { expect_as_alone(false); }
 TEST(KeptDaylight, OfSunAndSkyIsThatOfTheIntegrator) { expect_as_alone(true); }
 
 TEST(KeptDaylight, OfTheSameSkyTwiceAsBrightIsTwiceAsMuch) {
-  const TestScene scene = room();
+  const TestScene scene = side_lit_room();
   const Engines engines(scene.soup, scene.materials);
   const Sensors sensors = sensors_in_room();
   const CieOvercastSky dim(Luminance(3000.0)), bright(Luminance(6000.0));

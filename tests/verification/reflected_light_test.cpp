@@ -3,6 +3,7 @@
 
 #include "support/measured.h"
 #include "support/reference_table.h"
+#include "support/side_lit_room.h"
 #include "support/test_scene.h"
 
 namespace tenku {
@@ -105,26 +106,9 @@ TEST(ReflectedLight, AboveAWideLitPlaneIsItsReflectanceTimesTheSky) {
   EXPECT_LE(worst.worst(), 0.01);
 }
 
-/// Room of 6 x 8 x 3 m with an opening of 3 x 1.5 m in its south wall.
-TestScene room() {
-  TestScene scene;
-  scene.materials = {testing_support::grey_material(0.5), testing_support::grey_material(0.2),
-                     testing_support::grey_material(0.7)};
-  scene.level({0, 0, 6, 8}, 0, 1);
-  scene.level({0, 0, 6, 8}, 3, 2);
-  scene.wall({0, 0, 0, 8}, 0, 3);
-  scene.wall({6, 0, 6, 8}, 0, 3);
-  scene.wall({0, 8, 6, 8}, 0, 3);
-  scene.wall({0, 0, 1.5, 0}, 0, 3);
-  scene.wall({4.5, 0, 6, 0}, 0, 3);
-  scene.wall({1.5, 0, 4.5, 0}, 0, 0.9);
-  scene.wall({1.5, 0, 4.5, 0}, 2.4, 3);
-  return scene;
-}
-
 TEST(ReflectedLight, OfARoomIsThatOfRadiosity) {
   const ReferenceTable table(TENKU_TEST_REFERENCE "/illuminance/room.csv");
-  const TestScene scene = room();
+  const TestScene scene = testing_support::side_lit_room();
   const auto source = testing_support::source_of(*testing_support::numbered_sky(16, 40, 180));
   const double scale = source.unobstructed_lux() / 10000.0;
   const auto sensors_every = [&](std::size_t step) {
