@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::string_view kColumns =
     ".meshes{display:grid;grid-auto-flow:column;grid-auto-columns:1fr;gap:1rem}"
-    ".meshes h2{min-height:2.6em}"
+    ".meshes h2{min-height:5rem}"
     ".meshes img{width:100%;display:block;margin:0 0 .6rem}"
     ".meshes dl{display:grid;grid-template-columns:auto auto;gap:.1rem 1rem;font-size:.85rem}"
     ".meshes dd{margin:0;text-align:right}body{max-width:100rem}";

@@ -12,7 +12,7 @@ namespace tenku {
 namespace {
 
 constexpr int kWidth = 620, kHeight = 480;
-constexpr double kWhiteShare = 0.01, kOnBox = 1e-4;
+constexpr double kWhiteShare = 0.05, kOnBox = 1e-4;
 
 /// Whether a face lies on the box about the scene and looks away from it.
 bool is_outside(const Extent& box, Vec3 centre, Vec3 normal) {
