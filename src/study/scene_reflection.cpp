@@ -13,6 +13,14 @@ constexpr double kRoom_m = 60.0;
 constexpr std::size_t kRoomTriangles = 20000;
 constexpr int kAllBounces = 5;
 
+bool has_lamps(const LitScene& lit) {
+  const std::vector<Material>& materials = lit.scene().materials;
+  return std::any_of(lit.soup().material.begin(), lit.soup().material.end(), [&](std::uint32_t m) {
+    const Rgb& sent = materials[m].emission_lm_m2;
+    return std::max({sent.r, sent.g, sent.b}) > 0.0;
+  });
+}
+
 }  // namespace
 
 SceneReflection::SceneReflection(const LitScene& lit, Reflection how) : lit_(lit), how_(how) {
@@ -41,12 +49,27 @@ bool SceneReflection::is_by_radiosity(int bounces) const {
 
 const ReflectionFinder* SceneReflection::finder(const IlluminanceOptions& options,
                                                 const LightMethod& method) {
-  if (!is_by_radiosity(options.bounces)) return nullptr;
+  if (!is_by_radiosity(options.bounces)) {
+    if (options.bounces > 0 && !told_of_lamps_ && has_lamps(lit_)) tell_of_lamps();
+    return nullptr;
+  }
   direct_ = options;
   direct_.bounces = 0;
   direct_.share_reflected_m = 0.0;
   method_ = method;
   return &finder_;
+}
+
+void SceneReflection::tell_of_lamps() {
+  told_of_lamps_ = true;
+  Finding finding;
+  finding.code = "lamps_by_paths";
+  finding.what =
+      "paths meet lamps by chance only: where these are small, values may be far too low, and "
+      "their "
+      "intervals too narrow";
+  finding.repair = "--reflection radiosity with five bounces or more, or tenku radiosity";
+  findings_.push_back(std::move(finding));
 }
 
 void SceneReflection::tell(std::vector<Finding>& findings) {

@@ -35,6 +35,7 @@ class SceneReflection {
  private:
   bool is_by_radiosity(int bounces) const;
   void solve(Progress& progress);
+  void tell_of_lamps();
 
   const LitScene& lit_;
   Reflection how_;
@@ -45,6 +46,7 @@ class SceneReflection {
   std::optional<InteriorLight> light_;
   ReflectionFinder finder_;
   std::vector<Finding> findings_;
+  bool told_of_lamps_ = false;
 };
 
 }  // namespace tenku

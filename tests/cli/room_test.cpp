@@ -74,5 +74,22 @@ TEST(RoomLight, AWayOfReflectionThatDoesNotExistIsNamed) {
   EXPECT_NE(run.err.find("radiosity"), std::string::npos) << run.err;
 }
 
+TEST(RoomLight, LampsThatPathsMustMeetByChanceAreToldOf) {
+  const fs::path folder = test_folder();
+  write_sensors(folder);
+  const std::string box = TENKU_SOURCE_DIR "/scenes/verification/cornell_box/";
+  const std::string lit = "illuminance " + box + "cornell_box.obj --materials " + box +
+                          "materials.toml --sky none --tolerance 50 --sensors room.pts --out ";
+  const auto paths = run_tenku(lit + "paths.csv --reflection paths --bounces 1", folder);
+  EXPECT_NE(paths.err.find("meet lamps by chance"), std::string::npos) << paths.err;
+  const auto none = run_tenku(lit + "none.csv --bounces 0", folder);
+  EXPECT_EQ(none.err.find("meet lamps by chance"), std::string::npos) << none.err;
+  const auto daylit =
+      run_tenku("illuminance " + kRoomModel + kRoomLight +
+                    " --tolerance 20 --reflection paths --bounces 1 --out daylit.csv",
+                folder);
+  EXPECT_EQ(daylit.err.find("meet lamps by chance"), std::string::npos) << daylit.err;
+}
+
 }  // namespace
 }  // namespace tenku
