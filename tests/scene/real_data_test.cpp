@@ -1,6 +1,8 @@
 // Counts against the manifest of the data folder, which was made with other programs.
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "tests/scene/scene_files.h"
 
 namespace tenku {
@@ -13,6 +15,8 @@ struct Expected {
   std::size_t objects, triangles;  ///< of the LOD used
   const char* lod;
   const char* crs;
+
+  friend void PrintTo(const Expected& e, std::ostream* out) { *out << e.file << " LOD " << e.lod; }
 };
 
 class RealData : public testing::TestWithParam<Expected> {};
