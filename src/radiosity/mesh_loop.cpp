@@ -216,14 +216,14 @@ double MeshLoop::foreseen_elements() const {
   return sum;
 }
 
-BubbleMesh MeshLoop::bubbles_up_to(std::span<const std::uint8_t> is_wanted, bool is_short) const {
+BubbleMesh MeshLoop::bubbles_up_to(std::span<const std::uint8_t> is_wanted) const {
   const auto most =
       static_cast<double>(options_.elements_max > 0 ? options_.elements_max : kMostElements);
   const double wished = 0.5 * (1.0 + kNearlyAll) * most;
   BubbleMesh best;
   double scale = 1.0, most_yet = -1.0;
   const double foreseen = foreseen_elements();
-  if (is_short || foreseen > wished) scale = std::sqrt(foreseen / wished);
+  if (foreseen > wished) scale = std::sqrt(foreseen / wished);
   for (int attempt = 0; attempt < (most_yet > most ? 3 : 1) * kAttempts; ++attempt) {
     BubbleMesh made = bubbles(is_wanted, scale);
     double count = 0.0;
@@ -231,7 +231,7 @@ BubbleMesh MeshLoop::bubbles_up_to(std::span<const std::uint8_t> is_wanted, bool
     const bool is_better = most_yet < 0.0 || most_yet > most ? count < most_yet || most_yet < 0.0
                                                              : count > most_yet && count <= most;
     if (is_better) best = std::move(made), most_yet = count;
-    if (count <= most && (!is_short || count >= kNearlyAll * most)) break;
+    if (count <= most) break;
     scale *= std::sqrt(count / wished);
   }
   return best;
@@ -241,7 +241,6 @@ bool MeshLoop::remesh_by_bubbles(const LightOnMesh& light) {
   const Stopwatch watch;
   SizeRange range = options_.sizes;
   std::vector<double> size_m;
-  bool is_short = false;
   if (has_sizes_by_hand()) {
     size_m = sizes_by_change(light, range);
   } else {
@@ -257,7 +256,7 @@ bool MeshLoop::remesh_by_bubbles(const LightOnMesh& light) {
   size_field_s_ += watch.seconds();
   if (wanted == 0) return false;
   const Stopwatch meshing;
-  BubbleMesh made = bubbles_up_to(is_wanted, is_short);
+  BubbleMesh made = bubbles_up_to(is_wanted);
   findings_ = findings_of(made.flaws);
   auto pieces = pieces_of(*mesh_, polygon_of_, polygons_.size());
   for (std::size_t p = 0; p < pieces.size(); ++p) {

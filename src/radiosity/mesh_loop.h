@@ -97,8 +97,8 @@ class MeshLoop {
   std::vector<std::uint8_t> polygons_to_mesh() const;
   BubbleMesh bubbles(std::span<const std::uint8_t> is_wanted, double scale) const;
   double foreseen_elements() const;
-  /// As many elements as are allowed, or nearly, if that is too few for the tolerance.
-  BubbleMesh bubbles_up_to(std::span<const std::uint8_t> is_wanted, bool is_short) const;
+  /// Not more elements than are allowed; where that is too few for the sizes, nearly as many.
+  BubbleMesh bubbles_up_to(std::span<const std::uint8_t> is_wanted) const;
   void take(std::vector<MeshPiece> pieces);
   bool has_sizes_by_hand() const {
     return options_.sizes.least_m > 0.0 && options_.sizes.most_m > 0.0;

@@ -14,7 +14,7 @@ using NamedMesh = std::pair<std::string, const MeshLoop*>;
 
 /// The page of `mesh_page`: all meshes from the same eye, above the south-west. Faces on the
 /// outside of the scene's box are left out, so that one looks into a room. White is what a
-/// hundredth of the lit area of the first mesh, without lamps, is brighter than.
+/// twentieth of the lit area of the first mesh, without lamps, is brighter than.
 /// @param meshes  at least one
 std::string mesh_report(const std::string& title, const std::vector<NamedMesh>& meshes);
 

@@ -16,8 +16,7 @@ constexpr int kAllBounces = 5;
 bool has_lamps(const LitScene& lit) {
   const std::vector<Material>& materials = lit.scene().materials;
   return std::any_of(lit.soup().material.begin(), lit.soup().material.end(), [&](std::uint32_t m) {
-    const Rgb& sent = materials[m].emission_lm_m2;
-    return std::max({sent.r, sent.g, sent.b}) > 0.0;
+    return luminance_of(materials[m].emission_lm_m2) > 0.0;
   });
 }
 
@@ -65,9 +64,8 @@ void SceneReflection::tell_of_lamps() {
   Finding finding;
   finding.code = "lamps_by_paths";
   finding.what =
-      "paths meet lamps by chance only: where these are small, values may be far too low, and "
-      "their "
-      "intervals too narrow";
+      "paths meet lamps by chance only: where these are small, values may be far too low, "
+      "and their intervals too narrow";
   finding.repair = "--reflection radiosity with five bounces or more, or tenku radiosity";
   findings_.push_back(std::move(finding));
 }
