@@ -57,15 +57,7 @@ class PlannedLight {
         work.told.may_interpolate ? illuminate_sparsely(here, engines_.rays(), source_, options_,
                                                         progress_, &work.told.interpolated)
                                   : illuminate(here, engines_.rays(), source_, options_, progress_);
-    for (std::size_t k = 0; k < work.sensor.size(); ++k) {
-      const std::uint32_t s = work.sensor[k];
-      result_.values.sun_lux[s] = part.values.sun_lux[k];
-      result_.values.sky_lux[s] = part.values.sky_lux[k];
-      result_.values.sky_view[s] = part.values.sky_view[k];
-      result_.values.error_lux[s] = part.values.error_lux[k];
-      result_.is_missed[s] = part.is_missed[k];
-    }
-    result_.rays += part.rays;
+    take_direct(part, work.sensor, result_);
   }
 
   void by_shared_elements(const RegionWork& work) {
@@ -154,6 +146,19 @@ PlannedRegion told_together(const std::vector<RegionWork>& plan) {
 }
 
 }  // namespace
+
+void take_direct(const IlluminanceResult& part, std::span<const std::uint32_t> places,
+                 IlluminanceResult& whole) {
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const std::uint32_t s = places[k];
+    whole.values.sun_lux[s] = part.values.sun_lux[k];
+    whole.values.sky_lux[s] = part.values.sky_lux[k];
+    whole.values.sky_view[s] = part.values.sky_view[k];
+    whole.values.error_lux[s] = part.values.error_lux[k];
+    whole.is_missed[s] = part.is_missed[k];
+  }
+  whole.rays += part.rays;
+}
 
 IlluminanceResult illuminate(const Sensors& sensors, const Engines& engines,
                              const DaylightSource& source, const IlluminanceOptions& options,

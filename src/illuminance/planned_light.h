@@ -1,6 +1,9 @@
 /// Illuminance by the engine, and in the detail, that a plan chooses.
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "illuminance/light_plan.h"
 
 namespace tenku {
@@ -18,6 +21,11 @@ namespace tenku {
 IlluminanceResult illuminate(const Sensors& sensors, const Engines& engines,
                              const DaylightSource& source, const IlluminanceOptions& options,
                              const LightMethod& method, Progress& progress);
+
+/// Puts the direct light of some sensors, and what it took, where it belongs among all.
+/// @param places  of the sensors of `part` in `whole`
+void take_direct(const IlluminanceResult& part, std::span<const std::uint32_t> places,
+                 IlluminanceResult& whole);
 
 /// Seconds that the reflected light of the sensors is expected to take, from that of a few: more
 /// than it takes where later sensors find what earlier ones have stored.

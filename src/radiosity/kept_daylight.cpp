@@ -270,15 +270,7 @@ void KeptDaylight::find_anew(const Sensors& sensors, const DaylightMethod& dayli
   const IlluminanceResult part =
       illuminate(sensors_of(sensors, missed), daylight.engines, daylight.source, daylight.options,
                  daylight.method, progress);
-  for (std::size_t k = 0; k < missed.size(); ++k) {
-    const std::uint32_t i = missed[k];
-    result.values.sun_lux[i] = part.values.sun_lux[k];
-    result.values.sky_lux[i] = part.values.sky_lux[k];
-    result.values.sky_view[i] = part.values.sky_view[k];
-    result.values.error_lux[i] = part.values.error_lux[k];
-    result.is_missed[i] = part.is_missed[k];
-  }
-  result.rays += part.rays;
+  take_direct(part, missed, result);
 }
 
 }  // namespace tenku
