@@ -11,9 +11,9 @@ namespace tenku {
 /// As `illuminate` with rays, but direct light is found as `method` says. What came of the plan is
 /// in `IlluminanceResult::regions`. Reflected light is always followed by rays.
 ///
-/// Error    of regions lit by shadow maps `error_lux` comes from the pilots (see `Pilots`) and holds
-///          what elements, texels and left-out casters cost, whatever that is. With
-///          `Detail::Paper` likewise.
+/// Error    of regions lit by shadow maps `error_lux` comes from the pilots (see `Pilots`): what
+///          elements, texels and left-out casters cost, whatever that is. With `Detail::Paper`
+///          likewise.
 /// Same bits for any number of threads, but with `EngineChoice::Auto` the choice itself depends on
 /// how long things take.
 /// @throws as `illuminate` and `plan_light`
