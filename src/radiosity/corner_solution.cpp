@@ -18,6 +18,10 @@ constexpr double kNear = 0.3, kWideView = 0.03, kDoubt = 0.05, kCurved = 0.4;
 
 double lum(Rgb c) { return luminance_of(c); }
 
+double lum_of_difference(Rgb a, Rgb b) {
+  return lum({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
+}
+
 /// Corners of a side that are not inside of something, by what they gather: three bits.
 std::uint8_t open_corners(const std::array<std::uint32_t, 3>& corner,
                           std::span<const Rgb> gathered) {
@@ -55,17 +59,15 @@ class CornerSolver {
   void sweep() {
     const SurfaceLight& surfaces = problem_.surfaces;
     looks_ = gather_.gather(reflected_part(surfaces, light_.radiosity), is_lit_);
-    change_ = 0.0;
     gathered_.resize(looks_.size());
     for (std::size_t i = 0; i < looks_.size(); ++i) {
       for (std::size_t k = 0; k < PointGather::kLooks; ++k) {
         looks_[i][k] = looks_[i][k] + problem_.lamp_scale * problem_.lamps.left_to_rows[i][k];
       }
       gathered_[i] = mean_of(looks_[i]);
-      const Rgb now = gathered_[i] + of_lamps(i);
-      change_ = std::max(change_, std::abs(lum(now) - lum(light_.lux[i])));
-      light_.lux[i] = now;
+      light_.lux[i] = gathered_[i] + of_lamps(i);
     }
+    double change = 0.0;
     if (light_.open.empty()) {  // settled once: a sweep is linear
       for (const auto& corner : problem_.points.corner) {
         light_.open.push_back(open_corners(corner, gathered_));
@@ -73,11 +75,11 @@ class CornerSolver {
     }
     for (std::size_t s = 0; s < light_.radiosity.size(); ++s) {
       if (is_lit_[problem_.points.corner[s][0]] == 0) continue;
-      light_.radiosity[s] =
-          surfaces.emission_lm_m2[s / 2] + surfaces.reflectance[s / 2] * mean_lux(s);
+      const Rgb now = surfaces.emission_lm_m2[s / 2] + surfaces.reflectance[s / 2] * mean_lux(s);
+      change = std::max(change, lum_of_difference(now, light_.radiosity[s]));
+      light_.radiosity[s] = now;
     }
-    const double rho = surfaces.most_reflectance;
-    light_.convergence_lux = rho / (1.0 - rho) * change_;
+    light_.convergence_lux = change / (1.0 - surfaces.most_reflectance);
     ++light_.sweeps;
   }
 
@@ -112,7 +114,6 @@ class CornerSolver {
 
   /// Dim places count: nineteen of twenty corners are brighter than what is compared with.
   bool is_enough() const {
-    if (light_.sweeps < 2) return false;
     std::vector<double> lux;
     for (std::size_t i = 0; i < is_lit_.size(); ++i) {
       const double here = problem_.daylight.points.total_lux(i) + lum(light_.lux[i]);
@@ -162,7 +163,6 @@ class CornerSolver {
   CornerLight light_;
   std::vector<PointGather::Looks> looks_;  ///< [point]
   std::vector<Rgb> gathered_;              ///< [point], by rows
-  double change_ = 0.0;
 };
 
 }  // namespace

@@ -62,8 +62,9 @@ struct CornerLight {
 /// quarters of the middle. A corner without any light beside lit ones is inside of something that
 /// stands on the surface: it does not count.
 ///
-/// Error    convergence: a sweep shrinks every error at least by the greatest reflectance rho, so
-///            that what is left is at most rho / (1 - rho) of the last change.
+/// Error    convergence: a sweep shrinks every error of what sides send at least by the greatest
+///            reflectance rho, so that it was at most 1 / (1 - rho) of the last change before
+///            that; what corners have gathered of it is no more wrong.
 ///          form factors: from the two looks of each point, half its own difference, half that of
 ///            its plane.
 ///          mesh: kNear of the spread of a side counts as far as the side is wide in the view of

@@ -63,6 +63,16 @@ SurfaceLight scaled(SurfaceLight surfaces, double lamp_scale) {
   return surfaces;
 }
 
+/// What sides send before any reflection between them, lm/m2.
+std::vector<double> first_sent(const SurfaceLight& surfaces, const DaylightOnSides& direct) {
+  std::vector<double> sent;
+  for (std::size_t s = 0; s < direct.lux.size(); ++s) {
+    sent.push_back(
+        luminance_of(surfaces.emission_lm_m2[s / 2] + direct.lux[s] * surfaces.reflectance[s / 2]));
+  }
+  return sent;
+}
+
 /// What may still reach a point: nothing where surfaces in sight send nothing.
 double light_under_way(const CornerLight& corners, double received_lux) {
   return received_lux > 0.0 ? corners.convergence_lux : 0.0;
@@ -115,21 +125,34 @@ const std::vector<std::uint8_t>& Interior::open_points(Progress& progress) {
   const std::vector<std::uint8_t> all(points_.size(), 1);
   gather_.prepare(all, progress);
   std::vector<std::uint8_t> is_open(points_.size());
+  enclosure_.resize(points_.size());
   gather_.for_rows(all, [&](std::size_t point, std::size_t, const FormFactorRow& row) {
     double sum = 0.0;
     for (const FormFactor& f : row) sum += f.value;
     if (sum < 1.0 - kRounding) is_open[point] = 1;
+    enclosure_[point] += static_cast<float>(sum / PointGather::kLooks);
   });
   times_.form_factors_s += watch.seconds();
   is_open_ = on_whole_planes(points_, std::move(is_open));
   return *is_open_;
 }
 
+/// Areas of sides, as far as light from them meets others.
+std::vector<double> Interior::enclosed_areas() const {
+  std::vector<double> area;
+  for (std::size_t s = 0; s < mesh_.sides(); ++s) {
+    area.push_back(surfaces_.area_m2[s / 2]);
+    if (!enclosure_.empty()) area.back() *= enclosure_[points_.corner[s][0]];
+  }
+  return area;
+}
+
 RefinementResult Interior::shoot(const SurfaceLight& surfaces, const DaylightOnSides& direct,
-                                 Progress& progress) {
+                                 SentLight start, Progress& progress) {
   std::vector<Rgb> on_sides;
   for (const double lux : direct.lux) on_sides.push_back(Rgb::grey(lux));
   RefinementOptions refinement;
+  refinement.start = std::move(start);
   refinement.tolerance = kShotShare * mesh_tolerance_pct(options_) / 100.0;
   refinement.most_shots = options_.most_shots;
   refinement.watch = options_.watch;
@@ -184,7 +207,10 @@ InteriorLight Interior::light(const LightRequest& request, Progress& progress) {
     light.findings.insert(light.findings.end(), direct.findings.begin(), direct.findings.end());
   }
   const SurfaceLight surfaces = scaled(surfaces_, request.lamp_scale);
-  light.shots = shoot(surfaces, direct, progress);
+  const std::vector<double> weight = enclosed_areas();
+  std::vector<double> source = first_sent(surfaces, direct);
+  LightStart former = former_.start(source, weight);
+  light.shots = shoot(surfaces, direct, std::move(former.sent), progress);
   light.is_lit = lit_points(light.shots.sides, direct);
   light.points = direct.points;
   const Stopwatch looking;
@@ -200,6 +226,10 @@ InteriorLight Interior::light(const LightRequest& request, Progress& progress) {
                               kSweepShare * mesh_tolerance_pct(options_)};
   CornerLight start;
   start.radiosity = light.shots.sides.radiosity;
+  for (std::size_t s = 0; s < former.beyond_shots.size(); ++s) {
+    start.radiosity[s] = start.radiosity[s] + former.beyond_shots[s];
+    if (light.is_lit[points_.corner[s][0]] == 0) start.radiosity[s] = {};
+  }
   light.corners = solve_at_corners(problem, gather_, std::move(start), light.is_lit, progress);
   for (auto rough = rough_points(light); gather_.look_finer(rough); rough = rough_points(light)) {
     const Stopwatch again;
@@ -208,6 +238,9 @@ InteriorLight Interior::light(const LightRequest& request, Progress& progress) {
     times_.solve_s -= again.seconds();
     light.corners =
         solve_at_corners(problem, gather_, std::move(light.corners), light.is_lit, progress);
+  }
+  if (options_.many_skies && light.shots.is_converged) {
+    former_.keep(std::move(source), weight, light.shots, light.corners.radiosity);
   }
   for (std::size_t i = 0; i < points_.size(); ++i) {
     light.points.set_reflected(i, light.corners.lux[i]);

@@ -17,6 +17,7 @@
 #include "radiosity/corner_solution.h"
 #include "radiosity/daylight_sources.h"
 #include "radiosity/emitter_light.h"
+#include "radiosity/former_lights.h"
 #include "radiosity/light_leaks.h"
 #include "radiosity/patch_rows.h"
 #include "radiosity/point_gather.h"
@@ -35,7 +36,7 @@ struct InteriorOptions {
   std::size_t most_shots = 0;                      ///< 0: as many as it takes
   std::size_t most_bytes = std::size_t{2} << 30U;  ///< of form factors that are kept
   double lift_m = 1e-5;
-  bool many_skies = false;  ///< keeps what of daylight serves other skies
+  bool many_skies = false;  ///< keeps what of one light serves others
   std::function<void(const ShotView&)> watch;
 };
 
@@ -110,7 +111,8 @@ class Interior {
  private:
   const std::vector<std::uint8_t>& open_points(Progress& progress);
   RefinementResult shoot(const SurfaceLight& surfaces, const DaylightOnSides& direct,
-                         Progress& progress);
+                         SentLight start, Progress& progress);
+  std::vector<double> enclosed_areas() const;
   std::vector<std::uint8_t> lit_points(const SideRadiosity& sides,
                                        const DaylightOnSides& direct) const;
   const LampsOnMesh& lamps_on(std::span<const std::uint8_t> is_lit);
@@ -129,8 +131,10 @@ class Interior {
   PointGather gather_;
   EmitterLight emitters_;
   KeptDaylight daylight_;
+  FormerLights former_;
   std::optional<std::vector<std::uint8_t>> is_open_;  ///< [point], once it is known
-  std::vector<std::uint8_t> lamps_known_;             ///< [point], for `lamps_`
+  std::vector<float> enclosure_;  ///< [point], share of its view that surfaces fill, likewise
+  std::vector<std::uint8_t> lamps_known_;  ///< [point], for `lamps_`
   LampsOnMesh lamps_;
   std::optional<std::vector<LightLeak>> leaks_;  ///< once they have been looked for
   InteriorTimes times_;

@@ -1,7 +1,7 @@
 #include "radiosity/progressive_refinement.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -13,20 +13,23 @@ namespace {
 constexpr std::size_t kBatch = 32;  // patch sides whose rows are found at once
 constexpr std::size_t kMostShots = 1'000'000, kMostShotsAPatch = 100;
 
-constexpr std::size_t kSettled = 16;    // batches between two exact sums
 constexpr double kMostUnshot = 0.0005;  // of what is emitted: a balance to 0.1 %
+
+Rgb magnitude(Rgb c) { return {std::abs(c.r), std::abs(c.g), std::abs(c.b)}; }
 
 class Refinement {
  public:
-  Refinement(const ElementMesh& mesh, const SurfaceLight& surfaces, std::span<const Rgb> direct)
-      : mesh_(mesh), surfaces_(surfaces), direct_(direct) {
+  Refinement(const ElementMesh& mesh, const SurfaceLight& surfaces, std::span<const Rgb> direct,
+             const SentLight& start)
+      : mesh_(mesh), surfaces_(surfaces), direct_(direct), escaped_lm_(start.escaped_lm) {
     expects(direct.size() == mesh.sides(), "direct light is known on every side");
     received_.resize(mesh.sides());
     first_unshot_.resize(mesh.sides());
-    element_.resize(mesh.size());
-    unshot_lm_.resize(2 * mesh.patches());
-    for (std::size_t p = 0; p < mesh.patches(); ++p) add_patch(p);
-    settle();
+    patch_side_.resize(mesh.sides());
+    patch_.resize(2 * mesh.patches());
+    unshot_lm_.resize(patch_.size());
+    for (std::size_t p = 0; p < mesh.patches(); ++p) add_patch(p, start);
+    weigh();
   }
 
   std::vector<std::uint32_t> brightest() {
@@ -41,33 +44,31 @@ class Refinement {
     return {order_.begin(), last};
   }
 
-  /// Sides of a patch follow one another in a row, and are of one material: what they send is added
-  /// up before it is stored.
   void shoot(std::uint32_t patch_side, const FormFactorRow& row) {
     const Rgb flux = take_unshot(patch_side);
-    std::size_t receiver = 0;
-    double arrived = 0.0, at_receiver = 0.0;
+    double arrived = 0.0;
     for (const FormFactor& f : row) {
-      const Element& element = element_[f.side / 2];
-      const std::size_t its_patch = 2 * std::size_t{element.patch} + f.side % 2;
-      if (its_patch != receiver) {
-        add_unshot(receiver, at_receiver, flux);
-        arrived += at_receiver;
-        receiver = its_patch, at_receiver = 0.0;
-      }
-      received_[f.side] = received_[f.side] + (f.value * element.per_m2) * flux;
-      at_receiver += f.value;
+      const Rgb part = f.value * flux;
+      received_[f.side] = received_[f.side] + part;
+      Rgb& of_patch = patch_[patch_side_[f.side]].received;
+      of_patch = of_patch + part;
+      arrived += f.value;
     }
-    add_unshot(receiver, at_receiver, flux);
-    arrived += at_receiver;
     const double lm = luminance_of(flux);
     received_lm_ += arrived * lm;
     escaped_lm_ += (1.0 - arrived) * lm;
     ++shots_;
   }
 
-  /// Sums anew what shots have changed bit by bit.
-  void settle() { total_unshot_lm_ = std::accumulate(unshot_lm_.begin(), unshot_lm_.end(), 0.0); }
+  /// What patch sides have to send by now.
+  void weigh() {
+    total_unshot_lm_ = 0.0;
+    for (std::size_t s = 0; s < patch_.size(); ++s) {
+      const Patch& p = patch_[s];
+      unshot_lm_[s] = luminance_of(magnitude(p.first_unshot + p.reflectance * p.received));
+      total_unshot_lm_ += unshot_lm_[s];
+    }
+  }
 
   double left_lm() const { return total_unshot_lm_ / (1.0 - surfaces_.most_reflectance); }
   bool is_within(double tolerance) const {
@@ -77,11 +78,11 @@ class Refinement {
 
   SideRadiosity sides() const {
     SideRadiosity sides;
-    sides.received = received_;
     for (std::size_t s = 0; s < mesh_.sides(); ++s) {
+      sides.received.push_back(received_lux(s));
       sides.unshot.push_back(unshot(s));
       sides.radiosity.push_back(surfaces_.emission_lm_m2[s / 2] +
-                                surfaces_.reflectance[s / 2] * (direct_[s] + received_[s]));
+                                surfaces_.reflectance[s / 2] * (direct_[s] + received_lux(s)));
     }
     return sides;
   }
@@ -107,7 +108,7 @@ class Refinement {
     for (std::size_t s = 0; s < mesh_.sides(); ++s) {
       const std::size_t e = s / 2;
       const double area = surfaces_.area_m2[e];
-      const Rgb rho = surfaces_.reflectance[e], lux = direct_[s] + received_[s];
+      const Rgb rho = surfaces_.reflectance[e], lux = direct_[s] + received_lux(s);
       b.emitted_lm += area * luminance_of(surfaces_.emission_lm_m2[e] + direct_[s]);
       b.absorbed_lm += area * luminance_of(Rgb{1.0 - rho.r, 1.0 - rho.g, 1.0 - rho.b} * lux);
       b.unshot_lm += area * luminance_of(unshot(s));
@@ -116,59 +117,62 @@ class Refinement {
   }
 
  private:
-  /// What the inner loop needs of an element, side by side in memory.
-  struct Element {
-    double per_m2 = 0.0;
-    std::uint32_t patch = 0;
+  /// Of a side of a patch, which is of one material; lm.
+  struct Patch {
+    Rgb first_unshot, reflectance, received;
   };
 
+  Rgb received_lux(std::size_t side) const {
+    return (1.0 / surfaces_.area_m2[side / 2]) * received_[side];
+  }
   Rgb unshot(std::size_t side) const {
-    return first_unshot_[side] + surfaces_.reflectance[side / 2] * received_[side];
+    const std::size_t e = side / 2;
+    return (1.0 / surfaces_.area_m2[e]) *
+           (first_unshot_[side] + surfaces_.reflectance[e] * received_[side]);
   }
 
-  void add_patch(std::size_t patch) {
+  void add_patch(std::size_t patch, const SentLight& start) {
     for (std::size_t e = mesh_.patch_begin[patch]; e < mesh_.patch_begin[patch + 1]; ++e) {
       const double area = surfaces_.area_m2[e];
-      element_[e] = {1.0 / area, static_cast<std::uint32_t>(patch)};
       for (const std::size_t face : {0U, 1U}) {
         const std::size_t s = 2 * e + face;
-        first_unshot_[s] = surfaces_.emission_lm_m2[e] + surfaces_.reflectance[e] * direct_[s];
-        received_lm_ += area * luminance_of(direct_[s]);
+        patch_side_[s] = static_cast<std::uint32_t>(2 * patch + face);
+        Patch& all = patch_[patch_side_[s]];
+        Rgb first = surfaces_.emission_lm_m2[e] + surfaces_.reflectance[e] * direct_[s];
+        if (!start.radiosity.empty()) {
+          first = first + -1.0 * start.radiosity[s];
+          received_[s] = area * start.received[s];
+        }
+        first_unshot_[s] = area * first;
+        all.first_unshot = all.first_unshot + first_unshot_[s];
+        all.received = all.received + received_[s];
+        all.reflectance = surfaces_.reflectance[e];
+        received_lm_ += luminance_of(area * direct_[s] + received_[s]);
         emitted_lm_ += area * luminance_of(direct_[s] + surfaces_.emission_lm_m2[e]);
-        unshot_lm_[2 * patch + face] += area * luminance_of(unshot(s));
       }
     }
   }
 
-  /// @param arrived  of `flux`
-  void add_unshot(std::size_t patch_side, double arrived, Rgb flux) {
-    const Rgb reflectance = surfaces_.reflectance[mesh_.patch_begin[patch_side / 2]];
-    const double lm = arrived * luminance_of(reflectance * flux);
-    unshot_lm_[patch_side] += lm;
-    total_unshot_lm_ += lm;
-  }
-
   Rgb take_unshot(std::uint32_t patch_side) {
-    Rgb flux;
     const std::size_t patch = patch_side / 2;
     for (std::size_t e = mesh_.patch_begin[patch]; e < mesh_.patch_begin[patch + 1]; ++e) {
       const std::size_t side = 2 * e + patch_side % 2;
-      flux = flux + surfaces_.area_m2[e] * unshot(side);
       first_unshot_[side] = -1.0 * (surfaces_.reflectance[e] * received_[side]);
     }
-    total_unshot_lm_ -= unshot_lm_[patch_side];
-    unshot_lm_[patch_side] = 0.0;
+    Patch& all = patch_[patch_side];
+    const Rgb reflected = all.reflectance * all.received, flux = all.first_unshot + reflected;
+    all.first_unshot = -1.0 * reflected;
     return flux;
   }
 
   const ElementMesh& mesh_;
   const SurfaceLight& surfaces_;
   std::span<const Rgb> direct_;
-  std::vector<Rgb> received_;  ///< [element side], lux from other sides
-  std::vector<Rgb>
-      first_unshot_;  ///< [element side], and so much more as is reflected of `received_`
-  std::vector<Element> element_;
-  std::vector<double> unshot_lm_;  ///< [patch side]
+  std::vector<Rgb> received_;      ///< [element side], lm from other sides
+  std::vector<Rgb> first_unshot_;  ///< [element side], lm, and what is reflected of `received_`
+  std::vector<std::uint32_t> patch_side_;  ///< [element side]
+  std::vector<Patch> patch_;               ///< [patch side]
+  std::vector<double> unshot_lm_;          ///< [patch side], as last weighed
   std::vector<std::uint32_t> order_;
   double total_unshot_lm_ = 0.0, emitted_lm_ = 0.0, received_lm_ = 0.0, escaped_lm_ = 0.0;
   std::size_t shots_ = 0;
@@ -179,7 +183,7 @@ class Refinement {
 RefinementResult refine_progressively(const ElementMesh& mesh, const SurfaceLight& surfaces,
                                       std::span<const Rgb> direct, PatchRows& rows,
                                       const RefinementOptions& options, Progress& progress) {
-  Refinement state(mesh, surfaces, direct);
+  Refinement state(mesh, surfaces, direct, options.start);
   const std::size_t most = options.most_shots > 0
                                ? options.most_shots
                                : std::max(kMostShots, kMostShotsAPatch * mesh.patches());
@@ -190,7 +194,6 @@ RefinementResult refine_progressively(const ElementMesh& mesh, const SurfaceLigh
     const SideRadiosity sides = state.sides();
     options.watch({state.shots(), sides, state.ambient()});
   };
-  std::size_t batches = 0;
   while (!state.is_within(options.tolerance) && state.shots() < most) {
     progress.stop_if_cancelled();
     std::vector<std::uint32_t> batch = state.brightest();
@@ -204,7 +207,7 @@ RefinementResult refine_progressively(const ElementMesh& mesh, const SurfaceLigh
         next_watch *= 2;
       }
     }
-    if (++batches % kSettled == 0 || state.is_within(options.tolerance)) state.settle();
+    state.weigh();
     progress.advance(batch.size());
   }
   show();

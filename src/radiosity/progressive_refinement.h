@@ -40,11 +40,21 @@ struct ShotView {
   Rgb ambient;  ///< lux that the unshot light would give everywhere if it were spread evenly
 };
 
+/// Light that has been sent before the first shot.
+///
+/// Shape    both vectors [element side], or both empty: none.
+struct SentLight {
+  std::vector<Rgb> radiosity;  ///< sent by then, lm/m2
+  std::vector<Rgb> received;   ///< of it, lux
+  double escaped_lm = 0.0;     ///< of it
+};
+
 struct RefinementOptions {
   /// The end: what the unshot light can still bring to surfaces is at most this share of what they
   /// have received, and it is itself at most 0.05 % of what is emitted.
   double tolerance = 0.002;
   std::size_t most_shots = 0;  ///< 0: a million, or a hundred to a patch if that is more
+  SentLight start;             ///< shots make up for it where it is too much
   /// Called after shots 1, 2, 4, 8 and so on, and at the end.
   std::function<void(const ShotView&)> watch;
 };
@@ -61,8 +71,9 @@ struct RefinementResult {
 ///
 /// Patch sides with the most unshot flux send it first, their mean radiosity; elements receive by
 /// the rows. A row shares out the flux that is sent and never more than that, so that nothing is
-/// made or lost on the way. Patch sides are taken in batches of kBatch, which depend on nothing but
-/// the light: the same bits for any number of threads.
+/// made or lost on the way. Shots that take back what the start has sent too much of count like
+/// others: what is unshot is a sum of magnitudes. Patch sides are taken in batches of kBatch, which
+/// depend on nothing but the light: the same bits for any number of threads.
 ///
 /// Source   M. Cohen, S. E. Chen, J. Wallace, D. Greenberg, "A progressive refinement approach to
 ///          fast radiosity image generation", SIGGRAPH 1988: order, ambient term, two levels.
