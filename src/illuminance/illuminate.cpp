@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -10,6 +11,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/random.h"
+#include "illuminance/lamp_sampler.h"
 #include "illuminance/reflected_light.h"
 #include "illuminance/sensor_sky.h"
 #include "illuminance/sensor_sun.h"
@@ -36,6 +38,12 @@ void check_options(const IlluminanceOptions& options) {
 
 Rgb not_below_zero(Rgb c) { return {std::max(0.0, c.r), std::max(0.0, c.g), std::max(0.0, c.b)}; }
 
+/// What the paths of all sensors share.
+struct PathLight {
+  SkyCache cache;
+  LampSampler lamps;
+};
+
 /// One sensor: its parts, refined where the gain is largest for the cost.
 class SensorWork {
  public:
@@ -46,8 +54,8 @@ class SensorWork {
     Vec3 normal() const { return sensors.normal[index]; }
   };
 
-  /// @param cache  null: no reflected light
-  SensorWork(Place at, const RayVisibility& rays, const DaylightSource& source, SkyCache* cache,
+  /// @param paths  null: no reflected light
+  SensorWork(Place at, const RayVisibility& rays, const DaylightSource& source, PathLight* paths,
              const IlluminanceOptions& options)
       : options_(options),
         rays_(rays),
@@ -59,9 +67,9 @@ class SensorWork {
         sun_(rays, source.sun, at.position(), at.normal(),
              mix_bits(mix_bits(options.seed) + at.index)) {
     if (options.known_direct != nullptr) known_direct_ = options.known_direct->lux[at.index];
-    if (cache == nullptr) return;
-    reflected_.emplace(rays, *cache, options.bounces, at.position(), at.normal(),
-                       SampleRandom(options.seed, at.index, 1));
+    if (paths == nullptr) return;
+    reflected_.emplace(ReflectedLight::Scene{rays, paths->cache, paths->lamps}, options.bounces,
+                       at.position(), at.normal(), SampleRandom(options.seed, at.index, 1));
   }
 
   /// Refines until the budget is met; false if the limit of effort came first, or if what no
@@ -241,20 +249,22 @@ IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
   result.values = SensorIlluminance(sensors.size());
   result.is_missed.resize(sensors.size());
   std::atomic<std::uint64_t> rays_sent{0};
-  std::optional<SkyCache> cache;
-  if (options.bounces > 0) cache.emplace(rays, source, options.seed);
+  std::unique_ptr<PathLight> paths;
+  if (options.bounces > 0) {
+    paths.reset(new PathLight{{rays, source, options.seed}, LampSampler(rays)});
+  }
   progress.begin(options.known_direct ? "reflected light" : "illuminance", sensors.size());
   parallel_for(sensors.size(), kGrain, [&](IndexRange range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
       progress.stop_if_cancelled();
-      SensorWork work({sensors, i}, rays, source, cache ? &*cache : nullptr, options);
+      SensorWork work({sensors, i}, rays, source, paths.get(), options);
       result.is_missed[i] = !work.finish(budget, progress);
       work.store(result.values, i);
       rays_sent += work.rays_sent();
     }
     progress.advance(range.end - range.begin);
   });
-  result.rays = rays_sent + (cache ? cache->rays_sent() : 0);
+  result.rays = rays_sent + (paths ? paths->cache.rays_sent() : 0);
   tell_missed(result);
   if (options.known_direct == nullptr && source.unobstructed_lux() > 0.0) {
     find_dark_sensors(sensors, result.values, result.findings);

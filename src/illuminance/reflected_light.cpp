@@ -12,7 +12,8 @@ namespace {
 
 constexpr int kCertainBounces = 8;  // after these a path goes on by chance
 constexpr int kMostMirrors = 8;     // in a row
-constexpr int kTrueSlices = 16;     // of a true value: not by result, which would bias it
+constexpr std::uint64_t kLampStream = 0x6c616d7073ULL;
+constexpr int kTrueSlices = 16;  // of a true value: not by result, which would bias it
 
 // Student's t over the normal quantile, squared: 15 and 7 degrees of freedom, at 95 %.
 constexpr double kWiden15 = 1.183, kWiden7 = 1.456;
@@ -37,20 +38,30 @@ struct ReflectedLight::Vertex {
   double distance_m;
 };
 
-ReflectedLight::ReflectedLight(const RayVisibility& rays, SkyCache& cache, int bounces,
-                               Vec3 position, Vec3 normal, SampleRandom random)
-    : rays_(rays),
-      cache_(cache),
+/// A straight part of a path, up to what it meets.
+struct ReflectedLight::Leg {
+  int order;                       ///< of the surface that it leads to: 1 for the first
+  Rgb weight;                      ///< what of that surface's exitance reaches the sensor
+  bool is_direct;                  ///< from a diffuse surface or the sensor, not by way of a mirror
+  Vec3 origin, normal, direction;  ///< the normal is that at the origin
+};
+
+ReflectedLight::ReflectedLight(Scene scene, int bounces, Vec3 position, Vec3 normal,
+                               SampleRandom random)
+    : rays_(scene.rays),
+      cache_(scene.cache),
+      lamps_(scene.lamps),
       bounces_(bounces),
-      origin_(position + rays.lift_m() * normal),
+      origin_(position + scene.rays.lift_m() * normal),
       normal_(normal),
       scramble_(random.bits()),
       batch_sum_(kBatches),
       order_sum_(static_cast<std::size_t>(bounces) + 1),
-      sun_frame_(tangent_frame(cache.source().sun.direction)) {}
+      sun_frame_(tangent_frame(scene.cache.source().sun.direction)) {}
 
-template <class AtVertex>
-void ReflectedLight::trace_path(PathStart start, int last_order, const AtVertex& at_vertex) {
+template <class AtHit, class AtVertex>
+void ReflectedLight::trace_path(PathStart start, int last_order, const AtHit& at_hit,
+                                const AtVertex& at_vertex) {
   Rgb weight{1.0, 1.0, 1.0};
   Vec3 origin = origin_, normal = normal_, direction{};
   SampleRandom chance(start.scramble, start.index, 7);
@@ -66,6 +77,7 @@ void ReflectedLight::trace_path(PathStart start, int last_order, const AtVertex&
     const auto hit = rays_.first_hit(origin, direction);
     if (!hit) return;
     weight = rays_.glass_transmission(origin, direction, hit->distance_m) * weight;
+    at_hit(Leg{order, weight, diffuse, origin, normal, direction}, *hit);
     const Vec3 face = rays_.normal(hit->triangle);
     normal = dot(face, direction) < 0.0 ? face : -face;
     const Vec3 point = rays_.on_plane(hit->triangle, origin + hit->distance_m * direction);
@@ -96,21 +108,66 @@ void ReflectedLight::trace_path(PathStart start, int last_order, const AtVertex&
   }
 }
 
+/// Of the light of a lamp met by chance: what looking at lamps leaves to chance.
+double ReflectedLight::share_by_chance(const Leg& leg, std::uint32_t triangle,
+                                       double distance_m) const {
+  if (!leg.is_direct) return 1.0;
+  const LampSampler::View view(lamps_, leg.origin, leg.normal);
+  if (!view.is_worth_looking()) return 1.0;
+  const double by_chance = dot(leg.normal, leg.direction) / kPi;
+  return by_chance / (by_chance + view.density(triangle, distance_m * leg.direction));
+}
+
+/// Illuminance by one point of the lamps.
+/// @param order  of the surface that looks: 0 for the sensor
+Rgb ReflectedLight::look_at_lamps(Vec3 origin, Vec3 normal, PathStart start, int order) {
+  if (!lamps_.is_any()) return {};
+  const LampSampler::View view(lamps_, origin, normal);
+  if (!view.is_worth_looking()) return {};
+  const auto dimension = static_cast<unsigned>(2 * order);
+  const std::uint64_t scramble = mix_bits(start.scramble ^ kLampStream);
+  const auto [triangle, position] = view.choose(sobol_owen(start.index, dimension, scramble),
+                                                sobol_owen(start.index, dimension + 1, scramble));
+  const Vec3 way = position - origin;
+  const double away = length(way);
+  if (!(dot(way, normal) > 0.0)) return {};
+  const Vec3 direction = (1.0 / away) * way;
+  ++rays_sent_;
+  const auto hit = rays_.first_hit(origin, direction);
+  if (!hit || hit->triangle != triangle) return {};
+  const double by_chance = dot(normal, direction) / kPi;
+  const double share = by_chance / (by_chance + view.density(triangle, way));
+  const Material& lamp = rays_.materials()[rays_.soup().material[triangle]];
+  return share * rays_.glass_transmission(origin, direction, away) * lamp.emission_lm_m2;
+}
+
 void ReflectedLight::trace_looked_up(int goal) {
   for (; looked_up_paths_ < goal; ++looked_up_paths_) {
     const auto batch = static_cast<std::size_t>(looked_up_paths_ % kBatches);
     const PathStart start{static_cast<std::uint32_t>(looked_up_paths_ / kBatches),
                           mix_bits(scramble_ + batch)};
-    trace_path(start, bounces_, [&](const Vertex& v) {
-      const std::uint64_t address =
-          mix_bits(mix_bits(start.scramble + start.index) ^ static_cast<unsigned>(v.order));
-      const double direct = sky_lux(v, address) + sun_lux(v.point, v.normal, v.u, v.v);
-      const Rgb leaving = v.material.emission_lm_m2 + direct * v.material.reflectance;
-      const Rgb arriving = v.weight * leaving;
+    const auto add = [&](int order, Rgb arriving) {
       const double lux = luminance_of(arriving);
       looked_up_sum_ = looked_up_sum_ + arriving;
       batch_sum_[batch] += lux;
-      order_sum_[static_cast<std::size_t>(v.order)] += lux;
+      order_sum_[static_cast<std::size_t>(order)] += lux;
+    };
+    if (bounces_ > 0) add(1, look_at_lamps(origin_, normal_, start, 0));
+    const auto at_hit = [&](const Leg& leg, const RayHit& hit) {
+      const Material& lamp = rays_.materials()[rays_.soup().material[hit.triangle]];
+      if (!(luminance_of(lamp.emission_lm_m2) > 0.0)) return;
+      add(leg.order,
+          share_by_chance(leg, hit.triangle, hit.distance_m) * leg.weight * lamp.emission_lm_m2);
+    };
+    trace_path(start, bounces_, at_hit, [&](const Vertex& v) {
+      const std::uint64_t address =
+          mix_bits(mix_bits(start.scramble + start.index) ^ static_cast<unsigned>(v.order));
+      const double direct = sky_lux(v, address) + sun_lux(v.point, v.normal, v.u, v.v);
+      add(v.order, v.weight * (direct * v.material.reflectance));
+      if (v.order == bounces_) return;
+      const Vec3 origin = v.point + rays_.lift_m() * v.normal;
+      const Rgb of_lamps = look_at_lamps(origin, v.normal, start, v.order);
+      add(v.order + 1, v.weight * v.material.reflectance * of_lamps);
     });
   }
   const double per_batch = static_cast<double>(looked_up_paths_) / kBatches;
@@ -136,7 +193,8 @@ void ReflectedLight::trace_differences(int goal) {
       if (stop) break;
     }
     Rgb arriving{};
-    trace_path(start, order, [&](const Vertex& v) {
+    const auto no_lamps = [](const Leg&, const RayHit&) {};
+    trace_path(start, order, no_lamps, [&](const Vertex& v) {
       if (v.order != order) return;
       const std::uint64_t address = mix_bits(start.scramble + index);
       const double missed = true_sky_lux(v.point, v.normal, address, kTrueSlices) -

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "illuminance/lamp_sampler.h"
 #include "illuminance/sky_cache.h"
 #include "visibility/ray_visibility.h"
 
@@ -19,8 +20,11 @@ namespace tenku {
 ///          from a cache, good indoors, where few slices would meet a window: a few paths more,
 ///          drawn apart, measure the skylight at one of their surfaces and take the mean of its
 ///          difference from the cache. What the cache gets wrong becomes noise, never bias.
-///          Emitting surfaces count
-/// where paths meet them.
+/// The sensor and each surface on the way look at one point of the lamps, and paths meet lamps by
+/// chance: both count, each the more the likelier it was (E. Veach and L. J. Guibas, "Optimally
+/// combining sampling techniques for Monte Carlo rendering", SIGGRAPH 1995: the balance heuristic),
+/// so that neither small lamps nor near ones make noise. Lamps behind mirrors are met by chance
+/// only; so are all where they fill most of the view.
 ///
 /// Error    looked-up paths: variance of the mean of `kBatches` independent scrambles, widened for
 ///          its few degrees of freedom; difference: variance of the mean of its paths.
@@ -30,8 +34,13 @@ class ReflectedLight {
   /// The way that suits a sensor which sees this much of the sky.
   static SkyBy way_for(double sky_view) { return sky_view > 0.15 ? SkyBy::Slice : SkyBy::Cache; }
 
-  ReflectedLight(const RayVisibility& rays, SkyCache& cache, int bounces, Vec3 position,
-                 Vec3 normal, SampleRandom random);
+  /// What all paths in a scene share; borrowed.
+  struct Scene {
+    const RayVisibility& rays;
+    SkyCache& cache;
+    const LampSampler& lamps;
+  };
+  ReflectedLight(Scene scene, int bounces, Vec3 position, Vec3 normal, SampleRandom random);
 
   /// Chooses the way, before the first paths.
   void set_way(SkyBy way) { way_ = way; }
@@ -60,9 +69,12 @@ class ReflectedLight {
     std::uint64_t scramble;
   };
   struct Vertex;
+  struct Leg;
 
-  template <class AtVertex>
-  void trace_path(PathStart start, int last_order, const AtVertex& at_vertex);
+  template <class AtHit, class AtVertex>
+  void trace_path(PathStart start, int last_order, const AtHit& at_hit, const AtVertex& at_vertex);
+  double share_by_chance(const Leg& leg, std::uint32_t triangle, double distance_m) const;
+  Rgb look_at_lamps(Vec3 origin, Vec3 normal, PathStart start, int order);
   void trace_looked_up(int goal);
   void trace_differences(int goal);
   double sun_lux(Vec3 point, Vec3 normal, double u, double v);
@@ -71,6 +83,7 @@ class ReflectedLight {
 
   const RayVisibility& rays_;
   SkyCache& cache_;
+  const LampSampler& lamps_;
   int bounces_;
   Vec3 origin_, normal_;
   std::uint64_t scramble_;

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "illuminance/lamp_sampler.h"
 #include "meshing/mesh_surfaces.h"
 
 namespace tenku {
@@ -13,11 +14,17 @@ constexpr double kRoom_m = 60.0;
 constexpr std::size_t kRoomTriangles = 20000;
 constexpr int kAllBounces = 5;
 
-bool has_lamps(const LitScene& lit) {
+/// Whether paths find the light of lamps only with luck: of many, most of them hidden, they look at
+/// the wrong ones; behind mirrors they look at none.
+bool are_lamps_hard(const LitScene& lit) {
   const std::vector<Material>& materials = lit.scene().materials;
-  return std::any_of(lit.soup().material.begin(), lit.soup().material.end(), [&](std::uint32_t m) {
-    return luminance_of(materials[m].emission_lm_m2) > 0.0;
-  });
+  std::size_t lamps = 0;
+  bool any_mirror = false;
+  for (const std::uint32_t m : lit.soup().material) {
+    lamps += luminance_of(materials[m].emission_lm_m2) > 0.0;
+    any_mirror |= materials[m].mirror > 0.0;
+  }
+  return lamps > LampSampler::kMostGroups || (lamps > 0 && any_mirror);
 }
 
 }  // namespace
@@ -49,7 +56,7 @@ bool SceneReflection::is_by_radiosity(int bounces) const {
 const ReflectionFinder* SceneReflection::finder(const IlluminanceOptions& options,
                                                 const LightMethod& method) {
   if (!is_by_radiosity(options.bounces)) {
-    if (options.bounces > 0 && !told_of_lamps_ && has_lamps(lit_)) tell_of_lamps();
+    if (options.bounces > 0 && !told_of_lamps_ && are_lamps_hard(lit_)) tell_of_lamps();
     return nullptr;
   }
   direct_ = options;
@@ -64,8 +71,9 @@ void SceneReflection::tell_of_lamps() {
   Finding finding;
   finding.code = "lamps_by_paths";
   finding.what =
-      "paths meet lamps by chance only: where these are small, values may be far too low, "
-      "and their intervals too narrow";
+      "paths look at one point of the lamps at a time, and meet those in mirrors by chance: where "
+      "many are hidden, or small ones mirrored, values may be too low, and their intervals too "
+      "narrow";
   finding.repair = "--reflection radiosity with five bounces or more, or tenku radiosity";
   findings_.push_back(std::move(finding));
 }
