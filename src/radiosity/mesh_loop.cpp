@@ -11,7 +11,6 @@
 #include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "meshing/parted_mesh.h"
-#include "radiosity/sizes_by_error.h"
 
 namespace tenku {
 namespace {
@@ -105,12 +104,15 @@ void MeshLoop::solve(const LightRequest& request, Progress& progress) {
   interior_.reset();  // its form factors make room
   interior_ = std::make_unique<Interior>(*mesh_, materials_, how_);
   light_ = interior_->light(request, progress);
-  const LightOnMesh light = light_on_mesh(*mesh_, *interior_, light_);
-  const double mean = mean_lux(light);
+  on_mesh_.emplace(light_on_mesh(*mesh_, *interior_, light_));
+  const Stopwatch watch;
+  missed_lux_ = interpolation_error(*on_mesh_);
+  if (options_.mesher == Mesher::Bubble && !has_sizes_by_hand()) size_field_s_ += watch.seconds();
+  const double mean = mean_lux(*on_mesh_);
   if (rounds_.empty() || rounds_.back().elements > 0) rounds_.emplace_back();
   rounds_.back().elements = mesh_->size();
   rounds_.back().missed_pct =
-      mean > 0.0 ? 100.0 * interpolation_rms(light, interpolation_error(light)) / mean : 0.0;
+      mean > 0.0 ? 100.0 * interpolation_rms(*on_mesh_, missed_lux_) / mean : 0.0;
 }
 
 bool MeshLoop::is_enough() const {
@@ -121,8 +123,7 @@ bool MeshLoop::is_enough() const {
 }
 
 bool MeshLoop::remesh() {
-  const LightOnMesh light = light_on_mesh(*mesh_, *interior_, light_);
-  return options_.mesher == Mesher::Refine ? remesh_by_threshold(light) : remesh_by_bubbles(light);
+  return options_.mesher == Mesher::Refine ? remesh_by_threshold() : remesh_by_bubbles();
 }
 
 void MeshLoop::take(std::vector<MeshPiece> pieces) {
@@ -132,7 +133,7 @@ void MeshLoop::take(std::vector<MeshPiece> pieces) {
   polygon_of_ = std::move(all.polygon_of);
 }
 
-bool MeshLoop::remesh_by_threshold(const LightOnMesh& light) {
+bool MeshLoop::remesh_by_threshold() {
   const Stopwatch watch;
   if (!refinement_) {
     refinement_ = std::make_unique<ThresholdRefinement>(
@@ -142,8 +143,8 @@ bool MeshLoop::remesh_by_threshold(const LightOnMesh& light) {
       options_.threshold_pct > 0.0 ? options_.threshold_pct : options_.tolerance_pct;
   const std::size_t most = options_.elements_max > 0 ? options_.elements_max : kMostElements;
   const std::size_t before = mesh_->size();
-  auto pieces = refinement_->refined(neighbour_difference(light),
-                                     threshold_pct / 100.0 * mean_lux(light), most, patch_m_);
+  auto pieces = refinement_->refined(neighbour_difference(*on_mesh_),
+                                     threshold_pct / 100.0 * mean_lux(*on_mesh_), most, patch_m_);
   std::size_t after = 0;
   for (const MeshPiece& piece : pieces) after += piece.mesh.elements.size();
   if (after != before) {
@@ -237,18 +238,17 @@ BubbleMesh MeshLoop::bubbles_up_to(std::span<const std::uint8_t> is_wanted) cons
   return best;
 }
 
-bool MeshLoop::remesh_by_bubbles(const LightOnMesh& light) {
+bool MeshLoop::remesh_by_bubbles() {
   const Stopwatch watch;
   SizeRange range = options_.sizes;
   std::vector<double> size_m;
   if (has_sizes_by_hand()) {
-    size_m = sizes_by_change(light, range);
+    size_m = sizes_by_change(*on_mesh_, range);
   } else {
     if (!(range.most_m > 0.0)) range.most_m = std::max(range.least_m, kLargest * longest_m_);
     if (!(range.least_m > 0.0)) range.least_m = std::min(range.most_m, kSmallest * longest_m_);
-    const double allowed = options_.tolerance_pct / 100.0 * mean_lux(light);
-    size_m =
-        sizes_by_error(light, interpolation_error(light), {allowed, options_.elements_max, range});
+    const double allowed = options_.tolerance_pct / 100.0 * mean_lux(*on_mesh_);
+    size_m = sizes_by_error(*on_mesh_, missed_lux_, {allowed, options_.elements_max, range});
   }
   make_fields(size_m, range);
   const std::vector<std::uint8_t> is_wanted = polygons_to_mesh();

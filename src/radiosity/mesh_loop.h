@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "radiosity/light_on_mesh.h"
 #include "radiosity/shadow_edges.h"
 #include "radiosity/sizes_by_change.h"
+#include "radiosity/sizes_by_error.h"
 #include "radiosity/threshold_refinement.h"
 
 namespace tenku {
@@ -91,8 +93,8 @@ class MeshLoop {
   void solve(const LightRequest& request, Progress& progress);
   bool is_enough() const;
   bool remesh();
-  bool remesh_by_threshold(const LightOnMesh& light);
-  bool remesh_by_bubbles(const LightOnMesh& light);
+  bool remesh_by_threshold();
+  bool remesh_by_bubbles();
   void make_fields(std::span<const double> size_m, SizeRange range);
   std::vector<std::uint8_t> polygons_to_mesh() const;
   BubbleMesh bubbles(std::span<const std::uint8_t> is_wanted, double scale) const;
@@ -113,6 +115,8 @@ class MeshLoop {
   std::unique_ptr<ElementMesh> mesh_;
   std::unique_ptr<Interior> interior_;
   InteriorLight light_;
+  std::optional<LightOnMesh> on_mesh_;  ///< of `light_`
+  std::vector<InterpolationError> missed_lux_;
   std::unique_ptr<ThresholdRefinement> refinement_;
   std::vector<std::vector<ConstraintSegment>> constraints_;  ///< [polygon], or none
   std::vector<SizeField> field_;                             ///< [polygon]
