@@ -14,6 +14,7 @@ constexpr std::size_t kBatch = 32;  // patch sides whose rows are found at once
 constexpr std::size_t kMostShots = 1'000'000, kMostShotsAPatch = 100;
 
 constexpr double kMostUnshot = 0.0005;  // of what is emitted: a balance to 0.1 %
+constexpr double kRounding = 1e-7;      // of what is emitted
 
 Rgb magnitude(Rgb c) { return {std::abs(c.r), std::abs(c.g), std::abs(c.b)}; }
 
@@ -104,7 +105,9 @@ class Refinement {
   /// From the light on each side, not from the sums kept while shooting.
   LightBalance balance() const {
     LightBalance b;
-    b.escaped_lm = escaped_lm_;
+    // Rows are floats: of a closed room they add up to 1 within rounding, on either side of it.
+    b.escaped_lm =
+        escaped_lm_ > -kRounding * emitted_lm_ ? std::max(0.0, escaped_lm_) : escaped_lm_;
     for (std::size_t s = 0; s < mesh_.sides(); ++s) {
       const std::size_t e = s / 2;
       const double area = surfaces_.area_m2[e];

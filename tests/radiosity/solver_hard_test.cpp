@@ -48,6 +48,7 @@ TEST(RadiosityEnergy, IsNeitherMadeNorLost) {
       EXPECT_GT(b.escaped_lm, 0.05 * b.emitted_lm);
     } else {
       EXPECT_LE(b.escaped_lm, 1e-4 * b.emitted_lm);
+      EXPECT_GE(b.escaped_lm, 0.0);
     }
   }
 }
