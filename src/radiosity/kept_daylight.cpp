@@ -23,6 +23,7 @@ constexpr int kFirst = 16, kMost = 4096;          // slices in a turn
 constexpr int kMostInDark = 256;                  // where none has seen the sky
 constexpr int kFine = 64;                         // in a turn, where the sky is seen, at least
 constexpr int kEnough = 32;                       // that see the sky
+constexpr double kOtherwise = 0.2;                // of what is missed, as measured in a room
 constexpr std::uint64_t kStream = 0x6b657074ULL;  // of the random start of slices
 
 /// The slices of one sensor, more and more where it sees the sky.
@@ -186,7 +187,10 @@ KeptDaylight::Times KeptDaylight::times(std::size_t sensor, double up, const Sky
   times.mean = (now[0] + now[1]) / (first[0] + first[1]);
   times.is_known = times.mean > 0.0;
   if (!times.is_known) return {};
-  times.variance = std::pow(0.5 * (now[0] / first[0] - now[1] / first[1]) / times.mean, 2);
+  const double halves = 0.5 * (now[0] / first[0] - now[1] / first[1]) / times.mean;
+  // What the slices miss of the first light, they miss of another one in nearly the same way.
+  const double missed = kOtherwise * ((first[0] + first[1]) / first_.sky_lux[sensor] - 1.0);
+  times.variance = halves * halves + missed * missed;
   return times;
 }
 
