@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "beams/beam_scene.h"
+#include "support/mirror_scene.h"
 #include "core/error.h"
 
 namespace tenku::testing_support {

@@ -19,7 +19,7 @@ struct MirrorScene {
 
   MirrorScene() {
     materials[1].mirror = 0.8;
-    materials[1].reflectance = {};
+    materials[1].reflectance = Rgb::grey(0.05);
   }
 
   void fan(const std::vector<Vec3>& corners, std::uint32_t material, std::uint32_t object = 0) {
