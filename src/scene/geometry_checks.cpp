@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <compare>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "core/mixed_key_sort.h"
+#include "core/parallel.h"
 #include "core/random.h"
 
 namespace tenku {
@@ -53,7 +56,7 @@ bool have_same_vertices(const Surfaces& surfaces, std::size_t a, std::size_t b) 
   return sorted(a) == sorted(b);
 }
 
-void tell_coincident_faces(RawScene& raw) {
+std::optional<Finding> coincident_faces(const RawScene& raw) {
   const Scene& scene = raw.scene;
   const Surfaces& surfaces = scene.surfaces;
   struct Face {
@@ -79,12 +82,15 @@ void tell_coincident_faces(RawScene& raw) {
     ++count;
     if (here < first) first = here, other = again;
   }
-  if (count == 0) return;
-  raw.findings.add({"coincident_faces", Severity::Note, raw.object_of(first),
-                    place_in_file(scene, scene.vertices[surfaces.outer_ring(first)[0]]),
-                    fmt::format("faces lie where another object has the same face (first: [{}])",
-                                raw.object_of(other)),
-                    "both are kept and shade as one; a sensor between them sees nothing", count});
+  if (count == 0) return std::nullopt;
+  return Finding{"coincident_faces",
+                 Severity::Note,
+                 raw.object_of(first),
+                 place_in_file(scene, scene.vertices[surfaces.outer_ring(first)[0]]),
+                 fmt::format("faces lie where another object has the same face (first: [{}])",
+                             raw.object_of(other)),
+                 "both are kept and shade as one; a sensor between them sees nothing",
+                 count};
 }
 
 // Far parts.
@@ -95,7 +101,7 @@ Vec3 median_vertex(const std::vector<Vec3>& vertices) {
   return {median_of(std::move(x)), median_of(std::move(y)), median_of(std::move(z))};
 }
 
-void tell_far_parts(RawScene& raw) {
+std::optional<Finding> far_parts(const RawScene& raw) {
   constexpr double kExact_m = 16384.0;  // floats lie 1 mm apart up to here
   constexpr double kFar_m = 100'000.0;  // no sight is longer
   constexpr double kCoarse_m = 0.01;
@@ -103,7 +109,7 @@ void tell_far_parts(RawScene& raw) {
   const Scene& scene = raw.scene;
   double reach = 0.0;
   for (const Vec3& v : scene.vertices) reach = std::max(reach, largest_coordinate(v));
-  if (!(reach > kExact_m)) return;
+  if (!(reach > kExact_m)) return std::nullopt;
   const Vec3 middle = median_vertex(scene.vertices);
   double farthest = -1.0;
   std::size_t surface = 0, count = 0;
@@ -121,16 +127,18 @@ void tell_far_parts(RawScene& raw) {
   const auto as_float = static_cast<float>(reach);
   const double step = std::nextafter(as_float, std::numeric_limits<float>::infinity()) - as_float;
   const bool is_apart = farthest > kFar_m;
-  raw.findings.add(
-      {"far_from_origin", is_apart || step > kCoarse_m ? Severity::Warning : Severity::Note,
-       raw.object_of(surface), place_in_file(scene, place),
-       fmt::format("faces lie up to {:.0f} km from the local origin, where the ray engine's "
-                   "positions lie {:.3g} mm apart, and all sensors stand {:.3g} mm off their "
-                   "surfaces; this object reaches {:.0f} km from the middle of the scene",
-                   reach / 1000.0, 1000.0 * step, 1000.0 * kLift * reach, farthest / 1000.0),
-       is_apart ? "take what is far off out of the scene, or calculate it apart"
-                : "details finer than that are lost; read the scene in parts to keep them",
-       std::max<std::size_t>(1, count)});
+  return Finding{
+      "far_from_origin",
+      is_apart || step > kCoarse_m ? Severity::Warning : Severity::Note,
+      raw.object_of(surface),
+      place_in_file(scene, place),
+      fmt::format("faces lie up to {:.0f} km from the local origin, where the ray engine's "
+                  "positions lie {:.3g} mm apart, and all sensors stand {:.3g} mm off their "
+                  "surfaces; this object reaches {:.0f} km from the middle of the scene",
+                  reach / 1000.0, 1000.0 * step, 1000.0 * kLift * reach, farthest / 1000.0),
+      is_apart ? "take what is far off out of the scene, or calculate it apart"
+               : "details finer than that are lost; read the scene in parts to keep them",
+      std::max<std::size_t>(1, count)};
 }
 
 // Flat buildings.
@@ -143,7 +151,7 @@ std::uint32_t root_of(const Scene& scene, std::uint32_t object) {
   return object;
 }
 
-void tell_flat_buildings(RawScene& raw) {
+std::optional<Finding> flat_buildings(const RawScene& raw) {
   constexpr double kFlat_m = 0.01;
   const Scene& scene = raw.scene;
   const Surfaces& surfaces = scene.surfaces;
@@ -179,7 +187,7 @@ void tell_flat_buildings(RawScene& raw) {
     flat.object = raw.object_of(h.first);
     flat.where = place_in_file(scene, scene.vertices[surfaces.outer_ring(h.first)[0]]);
   }
-  if (flat.count > 0) raw.findings.add(flat);
+  return flat.count > 0 ? std::optional(flat) : std::nullopt;
 }
 
 // Huge triangles.
@@ -195,7 +203,7 @@ double longest_edge(const Scene& scene, std::size_t s) {
   return longest;
 }
 
-void tell_huge_triangles(RawScene& raw) {
+std::optional<Finding> huge_triangles(const RawScene& raw) {
   constexpr double kHuge_m = 5000.0, kTimesUsual = 100.0;
   const Scene& scene = raw.scene;
   std::vector<std::pair<double, std::size_t>> huge;
@@ -205,28 +213,34 @@ void tell_huge_triangles(RawScene& raw) {
     if (edge > kHuge_m) huge.emplace_back(edge, s);
     if (edge <= kHuge_m) usual.push_back(edge);
   }
-  if (huge.empty() || usual.empty()) return;
+  if (huge.empty() || usual.empty()) return std::nullopt;
   const double median = median_of(std::move(usual));
   std::erase_if(huge, [&](const auto& one) { return one.first <= kTimesUsual * median; });
-  if (huge.empty()) return;
+  if (huge.empty()) return std::nullopt;
   const auto [edge, s] = huge.front();
-  raw.findings.add(
-      {"huge_triangle", Severity::Note, raw.object_of(s),
-       place_in_file(scene, scene.vertices[scene.surfaces.outer_ring(s)[0]]),
-       fmt::format("faces have edges beyond 5 km (here {:.1f} km), where the others have {:.3g} m",
-                   edge / 1000.0, median),
-       "taken as they are; rounding moves all sensors a quarter of a millimetre off their surfaces "
-       "for each kilometre: cut such faces where the rest ends",
-       huge.size()});
+  return Finding{
+      "huge_triangle",
+      Severity::Note,
+      raw.object_of(s),
+      place_in_file(scene, scene.vertices[scene.surfaces.outer_ring(s)[0]]),
+      fmt::format("faces have edges beyond 5 km (here {:.1f} km), where the others have {:.3g} m",
+                  edge / 1000.0, median),
+      "taken as they are; rounding moves all sensors a quarter of a millimetre off their surfaces "
+      "for each kilometre: cut such faces where the rest ends",
+      huge.size()};
 }
 
 }  // namespace
 
 void check_geometry(RawScene& raw) {
-  tell_coincident_faces(raw);
-  tell_far_parts(raw);
-  tell_flat_buildings(raw);
-  tell_huge_triangles(raw);
+  constexpr std::array kChecks{coincident_faces, far_parts, flat_buildings, huge_triangles};
+  std::array<std::optional<Finding>, kChecks.size()> found;
+  parallel_for(kChecks.size(), 1, [&](IndexRange range) {
+    for (std::size_t k = range.begin; k < range.end; ++k) found[k] = kChecks[k](raw);
+  });
+  for (std::optional<Finding>& finding : found) {
+    if (finding) raw.findings.add(std::move(*finding));
+  }
 }
 
 }  // namespace tenku

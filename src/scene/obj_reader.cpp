@@ -15,8 +15,7 @@ namespace fs = std::filesystem;
 
 class ObjReader {
  public:
-  ObjReader(std::string_view text, const fs::path& path)
-      : path_(path), file_(path.string()), cursor_(text, file_) {
+  explicit ObjReader(const fs::path& path) : path_(path), file_(path.string()), cursor_("", file_) {
     raw_.scene.format = "OBJ";
     raw_.scene.lods = {""};
   }
@@ -47,10 +46,11 @@ class ObjReader {
 };
 
 RawScene ObjReader::read(Progress& progress) {
-  for (std::size_t lines = 0; !cursor_.at_end(); ++lines) {
-    if (lines % 65536 == 0) progress.stop_if_cancelled();
-    read_statement();
-    cursor_.next_line();
+  InputLines lines(path_);
+  for (std::string block = lines.next(); !block.empty(); block = lines.next()) {
+    progress.stop_if_cancelled();
+    cursor_.go_on(block);
+    for (; !cursor_.at_end(); cursor_.next_line()) read_statement();
   }
   raw_.scene.lod_triangles.clear();
   return std::move(raw_);
@@ -193,8 +193,8 @@ void ObjReader::read_libraries() {
 
 }  // namespace
 
-RawScene read_obj(std::string_view text, const fs::path& path, Progress& progress) {
-  return ObjReader(text, path).read(progress);
+RawScene read_obj(const fs::path& path, Progress& progress) {
+  return ObjReader(path).read(progress);
 }
 
 }  // namespace tenku

@@ -12,9 +12,9 @@ namespace tenku {
 /// Reads polygons, objects (`o`), groups (`g`) and materials (`usemtl`, `mtllib`).
 ///
 /// Source   Wavefront Technologies, "Advanced Visualizer Manual", appendix B1 (the OBJ format).
-/// @param path  for messages and to find the MTL files beside it
-/// @throws InputError  naming file and line
-RawScene read_obj(std::string_view text, const std::filesystem::path& path, Progress& progress);
+/// @param path  MTL files are looked for beside it
+/// @throws InputError  naming file and line, and as `read_input_file`
+RawScene read_obj(const std::filesystem::path& path, Progress& progress);
 
 /// Type of a surface that has this material or group name, if one of the name's words says so:
 /// `Wall_01`, `roof`, `ceil`.

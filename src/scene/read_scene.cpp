@@ -36,10 +36,9 @@ Format format_of(const fs::path& path) {
 }
 
 RawScene read_raw(const fs::path& path, const ReadOptions& options, Progress& progress) {
-  const Format format = format_of(path);
+  if (format_of(path) == Format::Obj) return read_obj(path, progress);
   std::string bytes = read_input_file(path);
   progress.stop_if_cancelled();
-  if (format == Format::Obj) return read_obj(bytes, path, progress);
   return read_cityjson(std::move(bytes), path.string(), options.building_lod, progress);
 }
 

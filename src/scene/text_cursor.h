@@ -15,6 +15,8 @@ class TextCursor {
   TextCursor(std::string_view text, const std::string& file)
       : at_(text.data()), end_(text.data() + text.size()), file_(file) {}
 
+  /// Reads `text` next, as what follows in the file. Words found before are no longer valid.
+  void go_on(std::string_view text) { at_ = text.data(), end_ = text.data() + text.size(); }
   bool at_end() const { return at_ == end_; }
   std::size_t line() const { return line_; }
   void next_line();
