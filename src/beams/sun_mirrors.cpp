@@ -127,9 +127,7 @@ class PanelFinder {
 bool is_mirror(const Material& material) { return material.mirror > 0.0 || material.is_glass(); }
 
 double mirrored_share(const Material& material, double cos_incidence) {
-  if (material.mirror > 0.0) {
-    return material.mirror + (1.0 - material.mirror) * std::pow(1.0 - cos_incidence, 5.0);
-  }
+  if (material.mirror > 0.0) return material.mirror;
   Material clear;
   clear.index = material.index > 0.0 ? material.index : kUsualIndex;
   return 1.0 - pane_transmittance(clear, cos_incidence);
