@@ -40,6 +40,8 @@ std::pair<int, int> size_of(const std::string& text) {
 
 void check_view_options(const ViewOptions& options) {
   size_of(options.size);
+  mirror_method_named(options.mirrors);
+  check_mirror_depth(options.depth);
   if (options.eye.empty() != options.target.empty()) {
     throw InputError("give both --eye and --target, or neither for an overview");
   }
@@ -57,6 +59,9 @@ void add_view_options(CLI::App& app, ViewOptions& options) {
   app.add_option("--target", options.target, "what it looks at: E,N,U");
   app.add_option("--fov", options.fov_deg, "horizontal field of view, degrees (default 60)");
   app.add_option("--size", options.size, "pixels, WIDTHxHEIGHT (default 512x512)");
+  app.add_option("--mirrors", options.mirrors,
+                 "how mirrors are followed: auto, beams, rays or off (default auto)");
+  app.add_option("--depth", options.depth, "mirrors in a row that are followed (default 4)");
 }
 
 ViewRequest view_request(const ViewOptions& options, const LitSceneOptions& how,
@@ -75,6 +80,8 @@ ViewRequest view_request(const ViewOptions& options, const LitSceneOptions& how,
   request.bounces = how.bounces;
   request.seed = common.seed;
   request.method = light_method(how);
+  request.mirrors.method = mirror_method_named(options.mirrors);
+  request.mirrors.depth = options.depth;
   return request;
 }
 

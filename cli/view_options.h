@@ -12,10 +12,11 @@ class App;
 
 namespace tenku {
 
-/// `--eye`, `--target`, `--fov`, `--size`.
+/// `--eye`, `--target`, `--fov`, `--size`, `--mirrors`, `--depth`.
 struct ViewOptions {
-  std::string eye, target, size = "512x512";
+  std::string eye, target, size = "512x512", mirrors = "auto";
   double fov_deg = 60.0;
+  int depth = MirrorOptions().depth;
 };
 
 void add_view_options(CLI::App& app, ViewOptions& options);

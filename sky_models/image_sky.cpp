@@ -91,7 +91,10 @@ Rgb ImageSky::at(double row, double column) const {
 }
 
 Rgb ImageSky::colour(Vec3 direction) const {
-  if (direction.z < 0.0) return {};
+  return direction.z < 0.0 ? Rgb{} : all_round(direction);
+}
+
+Rgb ImageSky::all_round(Vec3 direction) const {
   const double azimuth = (azimuth_of(direction) - rotation_).in_radians();
   const double from_zenith = kPi / 2.0 - altitude_of(direction).in_radians();
   const double column = (0.5 + azimuth / (2.0 * kPi)) * static_cast<double>(image_.width) - 0.5;

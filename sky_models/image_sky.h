@@ -40,6 +40,9 @@ class ImageSky : public SkyModel {
   [[nodiscard]] Rgb colour(Vec3 direction) const override;
   [[nodiscard]] Angle detail() const override;
 
+  /// Colour in any direction, also below the horizon.
+  [[nodiscard]] Rgb all_round(Vec3 direction) const;
+
   /// Unobstructed horizontal illuminance: the bilinear image integrated pixel by pixel.
   /// Error    1e-6 relative.
   [[nodiscard]] Illuminance horizontal_illuminance() const;

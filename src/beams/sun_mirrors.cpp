@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "beams/first_met.h"
+#include "beams/mirror_reflectance.h"
 #include "visibility/ray_visibility.h"
 
 namespace tenku {
@@ -127,7 +128,7 @@ class PanelFinder {
 bool is_mirror(const Material& material) { return material.mirror > 0.0 || material.is_glass(); }
 
 double mirrored_share(const Material& material, double cos_incidence) {
-  if (material.mirror > 0.0) return material.mirror;
+  if (material.mirror > 0.0) return luminance_of(mirror_reflectance(material, cos_incidence));
   Material clear;
   clear.index = material.index > 0.0 ? material.index : kUsualIndex;
   return 1.0 - pane_transmittance(clear, cos_incidence);

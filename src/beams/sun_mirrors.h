@@ -15,9 +15,9 @@ bool is_mirror(const Material& material);
 
 /// Share of the light that a surface mirrors at a cosine of incidence.
 ///
-/// Of `mirror` that value at every angle; of glass, Fresnel's formulas for a pane with both faces
-/// and no absorption. A pane that is told by its transmittance mirrors what one of index 1.52 does.
-/// Source   `pane_transmittance`.
+/// Of `mirror` and `mirror_index` the luminance of `mirror_reflectance`; of glass, Fresnel's
+/// formulas for a pane with both faces and no absorption. A pane that is told by its transmittance
+/// mirrors what one of index 1.52 does. Source   `pane_transmittance`.
 double mirrored_share(const Material& material, double cos_incidence);
 
 /// Convex flat piece of a panel.

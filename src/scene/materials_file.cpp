@@ -11,8 +11,8 @@
 namespace tenku {
 namespace {
 
-constexpr std::array<std::string_view, 5> kKeys{"reflectance", "mirror", "index", "transmittance",
-                                                "emission_lm_m2"};
+constexpr std::array<std::string_view, 6> kKeys{"reflectance", "mirror",        "mirror_index",
+                                                "index",       "transmittance", "emission_lm_m2"};
 
 /// One value of a materials file, and where it stands.
 struct Entry {
@@ -64,11 +64,21 @@ Rgb reflectance_of(const Entry& entry) {
   return colour;
 }
 
+void set_mirror(Material& material, const Entry& entry) {
+  const Rgb colour = colour_of(entry);
+  for (const double c : {colour.r, colour.g, colour.b}) checked(entry, c, 0.0, 1.0, "[0, 1]");
+  const bool is_grey = colour.r == colour.g && colour.g == colour.b;
+  material.mirror = is_grey ? colour.r : luminance_of(colour);
+  if (!is_grey) material.mirror_tint = (1.0 / material.mirror) * colour;
+}
+
 void set_value(Material& material, const Entry& entry) {
   if (entry.key == "reflectance") {
     material.reflectance = reflectance_of(entry);
   } else if (entry.key == "mirror") {
-    material.mirror = checked(entry, number_of(entry, entry.node), 0.0, 1.0, "[0, 1]");
+    set_mirror(material, entry);
+  } else if (entry.key == "mirror_index") {
+    material.mirror_index = checked(entry, number_of(entry, entry.node), 1.0, 10.0, "[1, 10]");
   } else if (entry.key == "index") {
     material.index = checked(entry, number_of(entry, entry.node), 1.0, 10.0, "[1, 10]");
   } else if (entry.key == "transmittance") {
@@ -89,6 +99,11 @@ Material material_of(const std::string& file, const std::string& name, const tom
   material.name = name;
   for (const auto& [key, node] : table) {
     set_value(material, {file, name, key.str(), node});
+  }
+  if (material.mirror_index > 0.0 && !table.contains("mirror")) {
+    // Both faces of a pane, between which light goes to and fro.
+    const double face = std::pow((material.mirror_index - 1.0) / (material.mirror_index + 1.0), 2);
+    material.mirror = 2.0 * face / (1.0 + face);
   }
   if (!table.contains("reflectance") && (material.is_glass() || material.mirror > 0.0)) {
     material.reflectance = Rgb{};

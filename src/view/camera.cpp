@@ -52,6 +52,12 @@ Vec3 PerspectiveCamera::ray(double px, double py) const {
   return normalized(forward_ + x * right_ + y * up_);
 }
 
+BeamView PerspectiveCamera::window() const {
+  const Vec3 by_u = pixel_ * right_, by_v = -pixel_ * up_;
+  return BeamView::from_point(eye_, forward_ - 0.5 * width_ * by_u - 0.5 * height_ * by_v, by_u,
+                              by_v);
+}
+
 std::optional<PixelPosition> PerspectiveCamera::pixel_of(Vec3 point) const {
   const Vec3 d = point - eye_;
   const double depth = dot(d, forward_);

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "beams/beam_view.h"
 #include "core/units.h"
 #include "core/vec3.h"
 #include "view/image.h"
@@ -30,6 +31,9 @@ class PerspectiveCamera {
 
   /// Unit direction in which the place (px, py) of the picture looks.
   [[nodiscard]] Vec3 ray(double px, double py) const;
+
+  /// The picture as the window of beams: places are pixels.
+  [[nodiscard]] BeamView window() const;
 
   /// Where `point` appears; nothing if it is not in front of the eye. May lie off the picture.
   [[nodiscard]] std::optional<PixelPosition> pixel_of(Vec3 point) const;

@@ -1,6 +1,6 @@
 #include "view/shading_points.h"
 
-#include <atomic>
+#include <algorithm>
 #include <cmath>
 
 #include "core/parallel.h"
@@ -10,21 +10,14 @@ namespace tenku {
 namespace {
 
 constexpr int kRaysPerPixel = static_cast<int>(kRayPlaces.size());
-constexpr int kMostMirrors = 4;
 
+/// Those rays of a pixel that met one surface by the same way.
 struct Point {
-  Vec3 position, sum, normal;  ///< the sum of all positions
-  std::uint32_t material, triangle;
+  PathPoint first;
+  Vec3 sum;  ///< of all positions
   std::uint64_t surface;
   Rgb weight;
   int rays;
-  bool direct;
-};
-
-struct PixelPoints {
-  std::array<Point, kRaysPerPixel> point;
-  int count = 0;
-  Rgb background{};
 };
 
 /// Equal for triangles of one object in one plane, told by its normal and its offset.
@@ -35,124 +28,130 @@ std::uint64_t surface_key(const RayVisibility& rays, std::uint32_t triangle, Vec
                      {100.0 * normal.x, 100.0 * normal.y, 100.0 * normal.z, 5.0 * offset});
 }
 
+/// Points of some rows of the picture.
+struct RowPoints {
+  std::vector<Point> points;
+  std::vector<std::uint32_t> count;  ///< [pixel]
+  std::vector<Rgb> background;       ///< [pixel]
+  std::uint64_t rays = 0;
+  std::size_t cut_pixels = 0;
+  double cut_share = 0.0;
+};
+
 class PixelTracer {
  public:
-  PixelTracer(const RayVisibility& rays, const Backdrop& backdrop)
-      : rays_(rays), backdrop_(backdrop) {}
+  PixelTracer(const PixelPaths& paths, const RayVisibility& rays, Vec3 eye, PointPlace place)
+      : paths_(paths), rays_(rays), eye_(eye), place_(place) {}
 
-  void trace(Vec3 origin, Vec3 direction, PixelPoints& pixel) {
-    Rgb weight = Rgb::grey(1.0 / kRaysPerPixel);
-    for (int mirrors = 0;; ++mirrors) {
-      ++sent;
-      const auto hit = rays_.first_hit(origin, direction);
-      const double reach = hit ? hit->distance_m : std::numeric_limits<double>::infinity();
-      weight = rays_.glass_transmission(origin, direction, reach) * weight;
-      if (!hit) {
-        pixel.background = pixel.background + weight * backdrop_.colour(direction);
-        return;
-      }
-      const Vec3 face = rays_.normal(hit->triangle);
-      const Vec3 normal = dot(face, direction) < 0.0 ? face : -face;
-      const std::uint32_t index = rays_.soup().material[hit->triangle];
-      const Vec3 position = rays_.on_plane(hit->triangle, origin + hit->distance_m * direction);
-      add({position, position, normal, index, hit->triangle,
-           surface_key(rays_, hit->triangle, normal), weight, 1, mirrors == 0},
-          pixel);
-      const double mirror = rays_.materials()[index].mirror;
-      if (!(mirror > 0.0) || mirrors == kMostMirrors) return;
-      // Schlick's rise of the reflectance toward grazing incidence.
-      const double away = 1.0 + dot(normal, direction);
-      weight = (mirror + (1.0 - mirror) * std::pow(away, 5.0)) * weight;
-      origin = position + rays_.lift_m() * normal;
-      direction = direction - 2.0 * dot(direction, normal) * normal;
-      if (pixel.count == kRaysPerPixel) return;
+  void trace(int x, int y, RowPoints& rows) {
+    if (const auto alone = paths_.background_alone(x, y)) {
+      rows.count.push_back(0);
+      rows.background.push_back(*alone);
+      return;
     }
+    const std::size_t begin = rows.points.size();
+    Rgb background{};
+    double cut = 0.0;
+    for (std::size_t s = 0; s < kRayPlaces.size(); ++s) {
+      path_.clear();
+      paths_.follow(x, y, s, path_);
+      background = background + path_.background;
+      cut = std::max(cut, path_.cut_share);
+      for (const PathPoint& point : path_.points) add(point, begin, rows.points);
+    }
+    if (place_ == PointPlace::Middle) {
+      for (std::size_t k = begin; k < rows.points.size(); ++k) move_to_middle(rows.points[k]);
+    }
+    rows.count.push_back(static_cast<std::uint32_t>(rows.points.size() - begin));
+    rows.background.push_back(1.0 / kRaysPerPixel * background);
+    rows.cut_pixels += cut > 0.0;
+    rows.cut_share = std::max(rows.cut_share, cut);
   }
 
-  void move_to_middles(Vec3 eye, PixelPoints& pixel) {
-    for (int k = 0; k < pixel.count; ++k) {
-      Point& point = pixel.point[static_cast<std::size_t>(k)];
-      if (point.rays == 1 || !point.direct) continue;
-      const Vec3 middle = (1.0 / point.rays) * point.sum;
-      ++sent;
-      const auto hit = rays_.first_hit(eye, normalized(middle - eye));
-      if (!hit) continue;
-      const Vec3 face = rays_.normal(hit->triangle);
-      const Vec3 normal = dot(face, point.normal) > 0.0 ? face : -face;
-      if (surface_key(rays_, hit->triangle, normal) == point.surface) point.position = middle;
-    }
-  }
-
-  std::uint64_t sent = 0;
+  std::uint64_t sent() const { return path_.rays; }
 
  private:
-  static void add(const Point& point, PixelPoints& pixel) {
-    for (int k = 0; k < pixel.count; ++k) {
-      Point& known = pixel.point[static_cast<std::size_t>(k)];
-      if (known.surface != point.surface || known.direct != point.direct) continue;
-      known.weight = known.weight + point.weight;
-      known.sum = known.sum + point.sum;
+  void add(const PathPoint& point, std::size_t begin, std::vector<Point>& points) {
+    const std::uint64_t surface = surface_key(rays_, point.triangle, point.normal);
+    const Rgb weight = 1.0 / kRaysPerPixel * point.weight;
+    for (std::size_t k = begin; k < points.size(); ++k) {
+      Point& known = points[k];
+      if (known.surface != surface || known.first.way != point.way) continue;
+      known.weight = known.weight + weight;
+      known.sum = known.sum + point.position;
       ++known.rays;
       return;
     }
-    if (pixel.count < kRaysPerPixel) pixel.point[static_cast<std::size_t>(pixel.count++)] = point;
+    points.push_back({point, point.position, surface, weight, 1});
   }
 
+  void move_to_middle(Point& point) {
+    if (point.rays == 1 || point.first.way != 0) return;
+    const Vec3 middle = (1.0 / point.rays) * point.sum;
+    ++path_.rays;
+    const auto hit = rays_.first_hit(eye_, normalized(middle - eye_));
+    if (!hit) return;
+    const Vec3 face = rays_.normal(hit->triangle);
+    const Vec3 normal = dot(face, point.first.normal) > 0.0 ? face : -face;
+    if (surface_key(rays_, hit->triangle, normal) == point.surface) point.first.position = middle;
+  }
+
+  const PixelPaths& paths_;
   const RayVisibility& rays_;
-  const Backdrop& backdrop_;
+  Vec3 eye_;
+  PointPlace place_;
+  PixelPath path_;
 };
 
-void append(const PixelPoints& pixel, std::uint32_t index, ShadingPoints& points) {
-  for (int k = 0; k < pixel.count; ++k) {
-    const Point& point = pixel.point[static_cast<std::size_t>(k)];
-    points.sensors.position.push_back(point.position);
-    points.sensors.normal.push_back(point.normal);
-    points.pixel_index.push_back(index);
-    points.material.push_back(point.material);
-    points.triangle.push_back(point.triangle);
-    points.surface.push_back(point.surface);
-    points.weight.push_back(point.weight);
-    points.coverage.push_back(static_cast<double>(point.rays) / kRaysPerPixel);
-    points.is_seen_directly.push_back(point.direct);
+void append(const RowPoints& rows, const RayVisibility& rays, ShadingPoints& points) {
+  std::size_t k = 0;
+  for (std::size_t p = 0; p < rows.count.size(); ++p) {
+    const auto pixel = static_cast<std::uint32_t>(points.background.size());
+    for (std::uint32_t n = 0; n < rows.count[p]; ++n, ++k) {
+      const Point& point = rows.points[k];
+      points.sensors.position.push_back(point.first.position);
+      points.sensors.normal.push_back(point.first.normal);
+      points.pixel_index.push_back(pixel);
+      points.material.push_back(rays.soup().material[point.first.triangle]);
+      points.triangle.push_back(point.first.triangle);
+      points.surface.push_back(point.surface);
+      points.weight.push_back(point.weight);
+      points.coverage.push_back(static_cast<double>(point.rays) / kRaysPerPixel);
+      points.is_seen_directly.push_back(point.first.way == 0);
+    }
+    points.background.push_back(rows.background[p]);
+    points.first.push_back(static_cast<std::uint32_t>(points.sensors.size()));
   }
-  points.background.push_back(pixel.background);
-  points.first.push_back(static_cast<std::uint32_t>(points.sensors.size()));
+  points.rays += rows.rays;
+  points.cut_pixels += rows.cut_pixels;
+  points.cut_share = std::max(points.cut_share, rows.cut_share);
 }
 
 }  // namespace
 
 ShadingPoints find_shading_points(const PerspectiveCamera& camera, const RayVisibility& rays,
-                                  const Backdrop& backdrop, PointPlace place, Progress& progress) {
-  const auto width = static_cast<std::size_t>(camera.width());
+                                  const PixelPaths& paths, PointPlace place, Progress& progress) {
+  constexpr std::size_t kRows = 4;
   const auto height = static_cast<std::size_t>(camera.height());
-  std::vector<PixelPoints> pixels(width * height);
-  std::atomic<std::uint64_t> sent{0};
+  std::vector<RowPoints> rows((height + kRows - 1) / kRows);
   progress.begin("view rays", height);
-  parallel_for(height, 4, [&](IndexRange rows) {
+  parallel_for(height, kRows, [&](IndexRange range) {
     progress.stop_if_cancelled();
-    PixelTracer tracer(rays, backdrop);
-    for (std::size_t y = rows.begin; y < rows.end; ++y) {
-      for (std::size_t x = 0; x < width; ++x) {
-        for (const auto& [dx, dy] : kRayPlaces) {
-          const Vec3 direction =
-              camera.ray(static_cast<double>(x) + dx, static_cast<double>(y) + dy);
-          tracer.trace(camera.eye(), direction, pixels[y * width + x]);
-        }
-        if (place == PointPlace::Middle) {
-          tracer.move_to_middles(camera.eye(), pixels[y * width + x]);
-        }
-      }
+    PixelTracer tracer(paths, rays, camera.eye(), place);
+    RowPoints& made = rows[range.begin / kRows];
+    const std::size_t pixels = (range.end - range.begin) * static_cast<std::size_t>(camera.width());
+    made.count.reserve(pixels);
+    made.background.reserve(pixels);
+    for (std::size_t y = range.begin; y < range.end; ++y) {
+      for (int x = 0; x < camera.width(); ++x) tracer.trace(x, static_cast<int>(y), made);
     }
-    sent += tracer.sent;
-    progress.advance(rows.end - rows.begin);
+    made.rays += tracer.sent();
+    progress.advance(range.end - range.begin);
   });
   ShadingPoints points;
   points.width = camera.width();
-  points.rays = sent;
   points.first.push_back(0);
-  for (std::size_t p = 0; p < pixels.size(); ++p) {
-    append(pixels[p], static_cast<std::uint32_t>(p), points);
-  }
+  for (const RowPoints& some : rows) append(some, rays, points);
   progress.end(std::to_string(points.sensors.size()) + " points to light");
   return points;
 }

@@ -9,8 +9,8 @@
 #include "core/progress.h"
 #include "core/rgb.h"
 #include "illuminance/sensor.h"
-#include "sky_models/sky_model.h"
 #include "view/camera.h"
+#include "view/pixel_paths.h"
 #include "visibility/ray_visibility.h"
 
 namespace tenku {
@@ -29,6 +29,8 @@ struct ShadingPoints {
   std::vector<std::uint32_t> first;
   int width = 0;
   std::uint64_t rays = 0;
+  std::size_t cut_pixels = 0;  ///< where more mirrors follow one another than were followed
+  double cut_share = 0.0;      ///< of the light beyond them: the most that a ray of a pixel lacks
 
   std::pair<int, int> pixel(std::size_t i) const {
     const int p = static_cast<int>(pixel_index[i]);
@@ -55,21 +57,6 @@ struct ShadingPoints {
   }
 };
 
-/// What is seen where a ray meets nothing.
-struct Backdrop {
-  const SkyModel* sky = nullptr;  ///< above the horizon; null: black
-  Rgb below_horizon{};            ///< cd/m2
-
-  Rgb colour(Vec3 direction) const {
-    if (direction.z < 0.0) return below_horizon;
-    return sky != nullptr ? sky->colour(direction) : Rgb{};
-  }
-};
-
-/// Where in a pixel its rays go. A rotated grid: no two share a row or a column.
-inline constexpr std::array<std::array<double, 2>, 4> kRayPlaces{
-    {{0.125, 0.625}, {0.375, 0.125}, {0.625, 0.875}, {0.875, 0.375}}};
-
 /// Where the point of several rays of a pixel lies.
 enum class PointPlace {
   First,  ///< where the first of them met its surface
@@ -78,6 +65,6 @@ enum class PointPlace {
 
 /// Four rays a pixel; those on one surface become one point.
 ShadingPoints find_shading_points(const PerspectiveCamera& camera, const RayVisibility& rays,
-                                  const Backdrop& backdrop, PointPlace place, Progress& progress);
+                                  const PixelPaths& paths, PointPlace place, Progress& progress);
 
 }  // namespace tenku

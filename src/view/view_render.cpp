@@ -1,11 +1,14 @@
 #include "view/view_render.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <unordered_map>
 
 #include "core/parallel.h"
+#include "view/pixel_paths.h"
 #include "view/pixel_sharing.h"
 #include "view/shading_points.h"
 
@@ -99,9 +102,10 @@ SeenPolygons seen_polygons(const ShadingPoints& points, const PerspectiveCamera&
 }
 
 /// The sky, and beyond the edge of the scene an open ground of the usual reflectance.
-Backdrop backdrop_of(const DaylightSource& source, const SkyModel* sky) {
+Backdrop backdrop_of(const DaylightSource& source, const SkyModel* sky,
+                     const Background* background) {
   constexpr double kGroundReflectance = 0.2;  // as gensky and most codes take it
-  return {sky, Rgb::grey(kGroundReflectance * source.unobstructed_lux() / kPi)};
+  return {sky, Rgb::grey(kGroundReflectance * source.unobstructed_lux() / kPi), background};
 }
 
 /// Counts the pixels with points out of tolerance, and says so.
@@ -150,9 +154,25 @@ void compose(const ShadingPoints& points, const SensorIlluminance& light,
   result.error_mean = count > 0 ? sum / static_cast<double>(count) : 0.0;
 }
 
+/// Says of mirrors that reflect one another more often than is followed.
+void tell_cut(const ShadingPoints& points, int depth, std::vector<Finding>& findings) {
+  if (points.cut_pixels == 0) return;
+  Finding finding;
+  finding.code = "mirror_depth_reached";
+  finding.what = fmt::format(
+      "pixels show more than {} mirrors in a row; there up to {:.2g} of the light beyond is "
+      "missing",
+      depth, points.cut_share);
+  finding.repair = "a greater --depth";
+  finding.count = points.cut_pixels;
+  findings.push_back(std::move(finding));
+}
+
 /// What a picture asks to be lit, and how.
 struct ViewWork {
   PerspectiveCamera camera;
+  Backdrop backdrop;
+  MirrorReport mirrors;
   ShadingPoints points;
   SeenPolygons polygons;
   LightMethod method;
@@ -160,8 +180,10 @@ struct ViewWork {
   ViewWork(const ViewRequest& request, const Engines& engines, const DaylightSource& source,
            const SkyModel* sky, Progress& progress)
       : camera(request.view),
+        backdrop(backdrop_of(source, sky, request.background)),
         points(find_shading_points(
-            camera, engines.rays(), backdrop_of(source, sky),
+            camera, engines.rays(),
+            *pixel_paths(camera, engines.rays(), backdrop, request.mirrors, progress, mirrors),
             request.reflection != nullptr ? PointPlace::Middle : PointPlace::First, progress)),
         method(request.method) {
     method.eye = camera.eye();
@@ -197,6 +219,11 @@ RenderedView render_view(const ViewRequest& request, const Engines& engines,
   result.luminance = Image(work.camera.width(), work.camera.height());
   result.rays = points.rays + light.rays;
   result.regions = light.regions;
+  result.mirrors = work.mirrors.used;
+  result.findings = work.mirrors.findings;
+  if (request.mirrors.method != MirrorMethod::Off) {
+    tell_cut(points, request.mirrors.depth, result.findings);
+  }
   tell_missed(points, light.is_missed, result);
   compose(points, light.values, engines.rays().materials(), result);
   return result;

@@ -8,8 +8,10 @@
 #include "core/progress.h"
 #include "illuminance/planned_light.h"
 #include "sky_models/sky_model.h"
+#include "view/background.h"
 #include "view/camera.h"
 #include "view/image.h"
+#include "view/mirror_method.h"
 
 namespace tenku {
 
@@ -19,7 +21,9 @@ struct ViewRequest {
   int bounces = 5;
   std::uint64_t seed = 1;
   const ReflectionFinder* reflection = nullptr;  ///< in place of paths and `bounces`. Borrowed
-  LightMethod method;                            ///< its eye and polygons are those of the view
+  MirrorOptions mirrors;
+  const Background* background = nullptr;  ///< seen in place of the sky. Borrowed
+  LightMethod method;                      ///< its eye and polygons are those of the view
 };
 
 /// What the camera sees.
@@ -36,7 +40,8 @@ struct RenderedView {
   Image luminance;                                 ///< linear RGB, cd/m2, the sky behind
   std::vector<double> illuminance_lux, error_lux;  ///< NaN where the sky is seen
   std::uint64_t rays = 0;
-  std::size_t out_of_tolerance = 0;  ///< pixels for which the limit of effort came first
+  std::size_t out_of_tolerance = 0;           ///< pixels for which the limit of effort came first
+  MirrorMethod mirrors = MirrorMethod::Rays;  ///< how they were followed
   std::vector<Finding> findings;
   double error_mean = 0.0;  ///< mean of error_lux over the pixels that have one
   std::vector<PlannedRegion> regions;
