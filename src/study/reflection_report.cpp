@@ -82,10 +82,11 @@ void add_plans(ReflectionPage& page, const ReflectedSun& sun, const SunPlan& pla
                   "squares of {:.2g} m. Blank ground gets none. Grey: buildings.",
                   plan.most_lux.cell_m)));
   if (is_instant(sun)) return;
-  page.plans.push_back(map_of(
-      plan, plan.minutes, "How long the ground gets reflected sunlight", "Time with reflected sun",
-      "min",
-      fmt::format("Minutes, counted in steps of {:.3g}.", sun.moments.front().step_s / 60.0)));
+  page.plans.push_back(
+      map_of(plan, plan.minutes, "How long the ground gets reflected sunlight",
+             "Time with reflected sun", "min",
+             fmt::format("Minutes, counted in steps of {:.3g}: stripes and speckles are the steps.",
+                         sun.moments.front().step_s / 60.0)));
 }
 
 void add_figures(ReflectionPage& page, const ReflectedSun& sun, const SunPlan& plan) {
