@@ -6,12 +6,13 @@
 namespace tenku {
 namespace {
 
-constexpr int kMostHalvings = 6;
-constexpr double kMostBend = 1e-4;  // radians of altitude times radians of azimuth
-constexpr double kNarrow = 0.01;    // radians of azimuth for which one half-plane stands
+constexpr double kNarrow = 0.01;  // radians of azimuth for which one half-plane stands
 constexpr int kCrossingSteps = 3;
 constexpr double kPiece = 0.05;                 // radians of altitude for two angles through panes
 constexpr double kGauss = 0.28867513459481287;  // their places: two-point rule on a unit length
+
+constexpr double kSpeck = 1e-4;       // radians of azimuth of a boundary's part too short to test
+constexpr double kBesideEdge = 3e-4;  // radians from an edge, to tell the sky from what hides it
 
 /// Where the outlines of a slice end, toward `limit`.
 Bearing reach_after(const SkySlice& left, const Bearing& from, const Bearing& limit) {
@@ -29,6 +30,9 @@ Bearing reach_before(const SkySlice& right, const Bearing& from, const Bearing& 
 }
 
 }  // namespace
+
+const OutlineGap::Cutting OutlineGap::kCoarse{.most_bend = 1e-4, .most_width = kPi, .halvings = 6};
+const OutlineGap::Cutting OutlineGap::kFine{.most_bend = 1e-6, .most_width = 0.05, .halvings = 16};
 
 int append_pieces(const SensorSight& sight, Vec3 along, const Altitude& low, const Altitude& high,
                   std::vector<SeenPiece>& pieces) {
@@ -113,6 +117,37 @@ LuxAndView OutlineGap::at(const Bearing& bearing) const {
   return (1.0 - share) * left_end() + share * right_end();
 }
 
+std::optional<bool> OutlineGap::shows(const Bearing& bearing, double sine) const {
+  if (is_in_hole(bearing.offset)) return std::nullopt;
+  const Sides sides{bearing.offset <= left_reach_.offset, bearing.offset >= right_reach_.offset};
+  if ((sides.left && !left_.is_open) || (sides.right && !right_.is_open)) return false;
+  const SliceLight light(nullptr, sight_.normal, 0.0, bearing.along);
+  const auto [low, high] = range_at(light, bearing.along, sides);
+  return low.sine < sine && sine < high.sine;
+}
+
+bool OutlineGap::ends_along(const BoundaryPiece& piece) const {
+  const OutlineSegment edge(piece.a, piece.b);
+  const double turn = edge.turn();
+  const double middle_from_middle =
+      std::remainder(edge.begin() + 0.5 * turn - left_.azimuth - 0.5 * width_, 2.0 * kPi);
+  const double begin = middle_from_middle + 0.5 * (width_ - turn);
+  const double from = std::max(0.0, begin), to = std::min(width_, begin + turn);
+  if (to < from || to - from < std::min(kSpeck, 0.5 * turn)) return true;
+  const double offset = 0.5 * (from + to), azimuth = left_.azimuth + offset;
+  const Vec3 along{std::sin(azimuth), std::cos(azimuth), 0.0};
+  const Vec3 middle = normalized(along + edge.slope(along) * kZenith);
+  const auto is_told = [&](double beside) {
+    const Vec3 toward = normalized(middle + beside * piece.outward);
+    const Vec3 level = normalized({toward.x, toward.y, 0.0});
+    const double at = offset + along.y * level.x - along.x * level.y;
+    if (at < 0.0 || at > width_) return true;  // past a slice
+    const std::optional<bool> sky = shows({at, level}, toward.z);
+    return !sky || *sky == (beside > 0.0);
+  };
+  return is_told(kBesideEdge) && is_told(-kBesideEdge);
+}
+
 LuxAndView OutlineGap::open_at(const Bearing& bearing) const {
   const SliceLight light(sight_.table, sight_.normal, left_.azimuth + bearing.offset,
                          bearing.along);
@@ -149,16 +184,17 @@ Bearing OutlineGap::crossing(Bearing from, Bearing to) const {
   return at;
 }
 
-LuxAndView OutlineGap::known() const {
+LuxAndView OutlineGap::known(bool is_fine) const {
+  const Cutting& cutting = is_fine ? kFine : kCoarse;
   const bool overlap = right_reach_.offset < left_reach_.offset;
   const Bearing& first = overlap ? right_reach_ : left_reach_;
   const Bearing& last = overlap ? left_reach_ : right_reach_;
-  LuxAndView sum = sum_between({true, false}, {0.0, left_.along}, first, kMostHalvings) +
-                   sum_between({false, true}, last, {width_, right_.along}, kMostHalvings);
+  LuxAndView sum = sum_between({true, false}, {0.0, left_.along}, first, cutting) +
+                   sum_between({false, true}, last, {width_, right_.along}, cutting);
   if (!overlap) return sum;
   const Bearing middle = crossing(first, last);
-  return sum + sum_between({true, true}, first, middle, kMostHalvings) +
-         sum_between({true, true}, middle, last, kMostHalvings);
+  return sum + sum_between({true, true}, first, middle, cutting) +
+         sum_between({true, true}, middle, last, cutting);
 }
 
 double OutlineGap::bend(const Bearing& from, const Bearing& middle, const Bearing& to,
@@ -167,8 +203,11 @@ double OutlineGap::bend(const Bearing& from, const Bearing& middle, const Bearin
   const auto add = [&](const OutlineSegment& edge) {
     if (!edge.exists()) return;
     const double here = edge.slope(middle.along);
-    const double ends = edge.slope(from.along) + edge.slope(to.along);
-    most = std::max(most, std::abs(0.5 * ends - here) / (1.0 + here * here));
+    const auto rise_to = [&](const Bearing& end) {  // sine of the angle between two altitudes
+      const double there = edge.slope(end.along);
+      return (there - here) / std::sqrt((1.0 + there * there) * (1.0 + here * here));
+    };
+    most = std::max(most, 0.5 * std::abs(rise_to(from) + rise_to(to)));
   };
   if (sides.left) add(left_.low), add(left_.high);
   if (sides.right) add(right_.low), add(right_.high);
@@ -176,12 +215,15 @@ double OutlineGap::bend(const Bearing& from, const Bearing& middle, const Bearin
 }
 
 LuxAndView OutlineGap::sum_between(Sides sides, const Bearing& from, const Bearing& to,
-                                   int depth) const {
+                                   const Cutting& cutting, int depth) const {
   const double width = to.offset - from.offset;
   if (!(width > 0.0)) return {};
   const Bearing middle = middle_of(from, to);
-  if (depth > 0 && bend(from, middle, to, sides) * width > kMostBend) {
-    return sum_between(sides, from, middle, depth - 1) + sum_between(sides, middle, to, depth - 1);
+  const bool is_wide =
+      width > cutting.most_width || bend(from, middle, to, sides) * width > cutting.most_bend;
+  if (is_wide && depth < cutting.halvings) {
+    return sum_between(sides, from, middle, cutting, depth + 1) +
+           sum_between(sides, middle, to, cutting, depth + 1);
   }
   if (width < kNarrow) return width * seen(middle, sides);
   const auto node = [&](double share) {

@@ -3,25 +3,28 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "illuminance/outline_segment.h"
 #include "illuminance/slice_light.h"
+#include "visibility/sky_boundary.h"
 #include "visibility/slice_tracer.h"
 
 namespace tenku {
 
 /// What a slice has found.
 struct SkySlice {
-  double azimuth = 0.0;      ///< radians, clockwise from north
-  Vec3 along;                ///< horizontal unit vector toward it
-  LuxAndView light;          ///< per radian of azimuth
-  OutlineSegment low, high;  ///< what bounds the visible range
-  SliceHints hints;          ///< to what bounds it
-  bool is_behind = false;    ///< wholly behind the sensor
-  bool is_open = false;      ///< some sky is visible
-  bool is_outlined = false;  ///< one visible range, bounded by `low` and `high` alone
+  double azimuth = 0.0;             ///< radians, clockwise from north
+  Vec3 along;                       ///< horizontal unit vector toward it
+  LuxAndView light;                 ///< per radian of azimuth
+  OutlineSegment low, high;         ///< what bounds the visible range
+  OutlineEdge low_edge, high_edge;  ///< the same as edges of the mesh
+  SliceHints hints;                 ///< to what bounds it
+  bool is_behind = false;           ///< wholly behind the sensor
+  bool is_open = false;             ///< some sky is visible
+  bool is_outlined = false;         ///< one visible range, bounded by `low` and `high` alone
 };
 
 /// What a sensor looks through and at.
@@ -74,13 +77,19 @@ class OutlineGap {
 
   /// Light per radian, inside a hole that of the line.
   LuxAndView at(const Bearing& bearing) const;
+  /// Whether the sky is taken to end where this part of its boundary lies in the gap. True for
+  /// what lies in its hole, or outside the gap.
+  bool ends_along(const BoundaryPiece& piece) const;
   /// Light per radian of the unobstructed sky.
   LuxAndView open_at(const Bearing& bearing) const;
   /// Light of the gap outside its hole: by the two-point Gauss rule on parts over which the
   /// outlines bend little.
-  LuxAndView known() const;
+  /// @param is_fine  good to 1e-5 of the light, not to 1e-3
+  LuxAndView known(bool is_fine = false) const;
   /// Light of the hole, on the line from its beginning to its end.
   LuxAndView hole_light() const { return (0.5 * hole()) * (left_end() + right_end()); }
+  /// What changes from its beginning to its end, per radian.
+  LuxAndView hole_step() const { return right_end() - left_end(); }
   /// Rays through panes so far.
   std::uint64_t rays_sent() const { return rays_sent_; }
 
@@ -94,6 +103,8 @@ class OutlineGap {
     Altitude low, high;
   };
 
+  /// Whether the sky is taken to show at an altitude; nothing where the bearing lies in a hole.
+  std::optional<bool> shows(const Bearing& bearing, double sine) const;
   LuxAndView left_end() const;   ///< where the hole begins
   LuxAndView right_end() const;  ///< where it ends
   LuxAndView seen(const Bearing& bearing, Sides sides) const;
@@ -102,7 +113,15 @@ class OutlineGap {
   Range range_at(const SliceLight& light, Vec3 along, Sides sides) const;
   /// How far the outlines bend between two bearings, radians.
   double bend(const Bearing& from, const Bearing& middle, const Bearing& to, Sides sides) const;
-  LuxAndView sum_between(Sides sides, const Bearing& from, const Bearing& to, int depth) const;
+  /// How finely parts are cut.
+  struct Cutting {
+    double most_bend;   ///< radians of altitude times radians of azimuth
+    double most_width;  ///< radians
+    int halvings;
+  };
+  static const Cutting kCoarse, kFine;
+  LuxAndView sum_between(Sides sides, const Bearing& from, const Bearing& to,
+                         const Cutting& cutting, int depth = 0) const;
 
   const SkySlice &left_, &right_;
   double width_;

@@ -41,6 +41,12 @@ class OutlineSegment {
            last_ == other.last_;
   }
 
+  /// Azimuth of its first end, and the angle from there to the last one.
+  double begin() const { return std::atan2(first_.x, first_.y); }
+  double turn() const {
+    return std::atan2(across(first_, last_), first_.x * last_.x + first_.y * last_.y);
+  }
+
   /// Tangent of its altitude in the half-plane toward `along`, a horizontal unit vector at an
   /// azimuth between its ends.
   double slope(Vec3 along) const {

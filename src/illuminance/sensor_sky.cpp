@@ -20,15 +20,23 @@ constexpr double kFewPlaces = 0.1;   // of the gaps hold what is not known
 // What they tell.
 constexpr double kMissed = 0.4;       // of what the neighbours of a slice missed is missed still
 constexpr double kDoubt = 2.0;        // misses that might be of steps known by now
-constexpr double kPriorTests = 2.0;   // before any test so many count as made,
+constexpr double kPriorTests = 4.0;   // before any test so many count as made,
 constexpr double kPriorMiss = 0.5;    // and so much of the mean light as missed in them
+constexpr double kLeastKnown = 1e-4;  // radians of azimuth, where nothing was tested
 constexpr double kPriorShare = 0.25;  // of the open sky that a hole shows
+constexpr double kBounded = 0.3;      // of its variance an even error has less far from its mean
 
 // Where slices are added.
 constexpr double kWorthFilling = 0.2;  // of the worst gap's error
 constexpr double kLeastHole = 0.02;    // of a gap
 
 constexpr double square(double x) { return x * x; }
+
+/// Of things that no slice has met, in a part of a gap between two tests.
+/// @param miss_squared  the squares of what the tests missed, added
+constexpr double unknown_variance(double width, double miss_squared) {
+  return square(width) / 5.0 * miss_squared;
+}
 
 }  // namespace
 
@@ -130,13 +138,15 @@ double SensorSky::width_after(std::size_t i) const {
 SensorSky::GapLight SensorSky::gap_light(std::size_t i) {
   const OutlineGap gap(at(i), at(i + 1), width_after(i), sight_);
   GapLight result;
-  result.known = gap.known();
+  result.is_fine = is_whole_;
+  result.known = gap.known(is_whole_);
   result.hole_width = gap.hole();
   if (result.hole_width > 0.0) result.hole = gap.hole_light();
   pane_rays_ += gap.rays_sent();
   if (!(result.hole_width > 0.0)) return result;
   result.hole_begin = gap.hole_begin().offset;
   result.is_blind = !gap.is_between_outlines();
+  result.step = gap.hole_step().lux;
   if (!result.is_blind) {
     const Bearing middle = middle_of(gap.hole_begin(), gap.hole_end());
     result.room = gap.hole() * gap.open_at(middle) - result.hole;
@@ -159,16 +169,56 @@ SensorSky::Test SensorSky::test_of(std::size_t i) {
   return test;
 }
 
+/// Chance that the next outline is one that no slice has met, after Good and Turing: the share of
+/// those met but once.
+double SensorSky::unseen_share() {
+  met_.clear();
+  for (const Entry& entry : entry_) {
+    if (!entry.slice.is_outlined) continue;
+    for (const OutlineEdge& edge : {entry.slice.low_edge, entry.slice.high_edge}) {
+      if (edge.a == MeshAdjacency::kNone) continue;
+      const std::uint64_t first = std::min(edge.a, edge.b), last = std::max(edge.a, edge.b);
+      met_.push_back(first << 32 | last);
+    }
+  }
+  std::sort(met_.begin(), met_.end());
+  int once = 0;
+  for (auto from = met_.begin(); from != met_.end();) {
+    const auto to = std::upper_bound(from, met_.end(), *from);
+    if (to - from == 1) ++once;
+    from = to;
+  }
+  return (once + 1.0) / (static_cast<double>(met_.size()) + 1.0);
+}
+
+/// Whether all that bounds the sky is among what the slices have met.
+bool SensorSky::is_whole() {
+  if (!has_boundary_) {
+    boundary_ = sky_boundary(sight_.rays, sight_.origin, sight_.normal, pane_rays_);
+    has_boundary_ = true;
+  }
+  if (!boundary_) return false;
+  for (std::size_t i = 0; i < entry_.size(); ++i) {
+    const OutlineGap gap(at(i), at(i + 1), width_after(i), sight_);
+    const auto is_met = [&](const BoundaryPiece& piece) { return gap.ends_along(piece); };
+    if (!std::all_of(boundary_->begin(), boundary_->end(), is_met)) return false;
+  }
+  return true;
+}
+
 void SensorSky::learn(double about_lux) {
   const std::size_t count = entry_.size();
+  is_whole_ = is_whole();
   for (std::size_t i = 0; i < count; ++i) {
     Entry &here = entry_[i], &next = entry_[(i + 1) % count];
-    if (here.is_new || next.is_new) here.gap = gap_light(i);
+    if (here.is_new || next.is_new || (is_whole_ && !here.gap.is_fine)) here.gap = gap_light(i);
     if (here.is_new || next.is_new || entry_[before(i)].is_new) here.test = test_of(i);
   }
   for (Entry& entry : entry_) entry.is_new = false;
   lesson_ = {};
-  const double prior = kPriorTests * 2.0 * kPi / static_cast<double>(count);
+  const double prior =
+      is_whole_ ? 0.0
+                : kPriorTests * std::sqrt(unseen_share()) * 2.0 * kPi / static_cast<double>(count);
   double known = 0.0, room = 0.0, filled = 0.0, room_squared = 0.0;
   double missed = 0.0, missed_squared = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -193,8 +243,8 @@ void SensorSky::learn(double about_lux) {
   // Misses as many as count: one or two of them tell of steps that are known by now.
   const double misses = missed_squared > 0.0 ? square(missed) / missed_squared : 0.0;
   lesson_.evidence = misses / (misses + kDoubt);
-  lesson_.bend_squared /= std::max(known, prior);
-  known += prior;
+  lesson_.bend_squared /= std::max({known, prior, kLeastKnown});
+  known = std::max(known + prior, kLeastKnown);
   lesson_.miss = (1.0 / known) * lesson_.miss;
   lesson_.miss_squared += prior * square(kPriorMiss * about_lux / (2.0 * kPi));
   lesson_.miss_squared /= known;
@@ -215,15 +265,19 @@ double SensorSky::gap_variance(std::size_t i) const {
   const GapLight& gap = entry_[i].gap;
   const double width = width_after(i);
   if (!at(i).is_open && !at(i + 1).is_open) return 0.0;
+  if (gap.is_blind) {
+    return square(gap.hole_width * gap.step) / 12.0 +
+           unknown_variance(width, 2.0 * lesson_.miss_squared);
+  }
   const auto miss_squared = [&](const Entry& entry) {
-    return entry.test.kind == Test::Kind::Hole
-               ? lesson_.miss_squared
-               : std::max(lesson_.miss_squared, square(entry.test.miss.lux));
+    return entry.test.kind == Test::Kind::Known
+               ? std::max(lesson_.miss_squared, square(entry.test.miss.lux))
+               : lesson_.miss_squared;
   };
-  const double known = gap.is_blind ? width : width - gap.hole_width;
+  const double known = width - gap.hole_width;
   return lesson_.share_variance * square(gap.room.lux) +
-         square(known) / 5.0 *
-             (miss_squared(entry_[i]) + miss_squared(entry_[(i + 1) % entry_.size()]));
+         unknown_variance(known,
+                          miss_squared(entry_[i]) + miss_squared(entry_[(i + 1) % entry_.size()]));
 }
 
 SkySlice SensorSky::make_slice(double azimuth_rad, int checks, double weight, SliceHints before,
@@ -264,6 +318,8 @@ void SensorSky::bound(SkySlice& slice, const VisibleSlice& visible, double low, 
     return square(slope * found.cosine - found.sine) <
            square(kSameAltitude) * (1.0 + slope * slope);
   };
+  slice.low_edge = visible.low_edge;
+  slice.high_edge = visible.high_edge;
   slice.low = segment(visible.low_edge);
   slice.high = segment(visible.high_edge);
   slice.is_outlined = stands_at(slice.low, low, visible.range[0].low) &&
@@ -337,19 +393,29 @@ bool SensorSky::outlines_tell() const {
 
 SensorSky::Sum SensorSky::outlined_sum() const {
   Sum sum;
-  double room = 0.0, known = 0.0;
+  double room = 0.0, known = 0.0, blind_squares = 0.0, columns = 0.0;
   for (std::size_t i = 0; i < entry_.size(); ++i) {
     const GapLight& gap = entry_[i].gap;
     sum.light = sum.light + gap.known + gap.hole + lesson_.share * gap.room;
     room += gap.room.lux;
+    if (sight_.table != nullptr) {
+      columns += sight_.table->column_error(at(i).azimuth, width_after(i)) * gap.known.lux;
+    }
     known += gap.is_blind ? 0.0 : width_after(i) - gap.hole_width;
-    sum.variance += gap_variance(i);
+    const double variance = gap_variance(i);
+    sum.variance += variance;
+    if (gap.is_blind) blind_squares += square(variance);
   }
   const LuxAndView missed = (known * kMissed) * lesson_.miss;
   sum.light = sum.light + lesson_.evidence * missed;
   sum.variance +=
       (square(1.0 - lesson_.evidence) + square(0.35 * lesson_.evidence)) * square(missed.lux);
-  sum.variance += lesson_.share_error * square(room) + square(kTable * sum.light.lux);
+  sum.variance += lesson_.share_error * square(room);
+  // One step at an unknown place is off by no more than it is high; several by more.
+  if (sum.variance > 0.0) {
+    sum.variance *= 1.0 - kBounded * square(blind_squares / square(sum.variance));
+  }
+  sum.variance += square(kTable * sum.light.lux) + square(columns);
   return sum;
 }
 

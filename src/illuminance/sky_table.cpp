@@ -43,6 +43,7 @@ SkyTable::SkyTable(const SkyModel& sky)
     for (std::size_t c = range.begin; c < range.end; ++c) fill_column(sky, static_cast<int>(c));
   });
   drop_equal_columns();
+  find_column_errors();
   horizontal_lux_ = unobstructed_lux(kZenith);
 }
 
@@ -55,6 +56,36 @@ void SkyTable::drop_equal_columns() {
   }
   node_.resize(pitch);
   columns_ = 1;
+}
+
+/// Half-way between two columns a line misses what a cubic through four does not; over the whole
+/// way two thirds of that.
+void SkyTable::find_column_errors() {
+  const auto whole = [&](int column) {
+    const auto row =
+        static_cast<std::size_t>(column % columns_) * static_cast<std::size_t>(rows_ + 1) +
+        static_cast<std::size_t>(rows_);
+    return static_cast<double>(node_[row * kNodeFloats + 2]);
+  };
+  column_error_.assign(1, 0.0);
+  for (int c = 0; c < columns_; ++c) {
+    const double inner = whole(c) + whole(c + 1), outer = whole(c + columns_ - 1) + whole(c + 2);
+    const double missed = inner > 0.0 ? std::abs(inner - outer) / (8.0 * inner) : 0.0;
+    column_error_.push_back(column_error_.back() + 2.0 / 3.0 * missed);
+  }
+}
+
+double SkyTable::column_error(double azimuth_rad, double width_rad) const {
+  const double turns = azimuth_rad / (2.0 * kPi);
+  const double from = (turns - std::floor(turns)) * columns_;
+  const double to = from + width_rad / (2.0 * kPi) * columns_;
+  const auto sum_to = [&](double place) {
+    const int column = static_cast<int>(place), round = column / columns_;
+    const auto c = static_cast<std::size_t>(column % columns_);
+    return round * column_error_.back() + column_error_[c] +
+           (place - column) * (column_error_[c + 1] - column_error_[c]);
+  };
+  return to > from ? (sum_to(to) - sum_to(from)) / (to - from) : 0.0;
 }
 
 void SkyTable::fill_column(const SkyModel& sky, int column) {

@@ -52,6 +52,9 @@ class SkyTable {
   };
   Column column(double azimuth_rad) const;
 
+  /// Standard error of light from the columns in `width_rad` clockwise of an azimuth, of its value:
+  /// what a line between two columns misses. 0 where all are alike.
+  double column_error(double azimuth_rad, double width_rad) const;
   /// Illuminance of the unobstructed horizontal plane, lux.
   double horizontal_lux() const { return horizontal_lux_; }
   /// Illuminance of an unobstructed plane with the given normal, lux; below the horizon dark.
@@ -62,10 +65,12 @@ class SkyTable {
 
   void fill_column(const SkyModel& sky, int column);
   void drop_equal_columns();
+  void find_column_errors();
 
   int columns_, rows_;
   double row_rad_, rows_per_rad_;
-  std::vector<float> node_;  ///< [column][row][4]; one column if all are alike
+  std::vector<float> node_;           ///< [column][row][4]; one column if all are alike
+  std::vector<double> column_error_;  ///< of the columns before each, summed up; one if all alike
   double horizontal_lux_ = 0.0;
 };
 

@@ -82,10 +82,11 @@ void add_plans(ReflectionPage& page, const ReflectedSun& sun, const SunPlan& pla
                   "squares of {:.2g} m. Blank ground gets none. Grey: buildings.",
                   plan.most_lux.cell_m)));
   if (is_instant(sun)) return;
-  page.plans.push_back(map_of(
-      plan, plan.minutes, "How long the ground gets reflected sunlight", "Time with reflected sun",
-      "min",
-      fmt::format("Minutes, counted in steps of {:.3g}.", sun.moments.front().step_s / 60.0)));
+  page.plans.push_back(
+      map_of(plan, plan.minutes, "How long the ground gets reflected sunlight",
+             "Time with reflected sun", "min",
+             fmt::format("Minutes, counted in steps of {:.3g}: stripes and speckles are the steps.",
+                         sun.moments.front().step_s / 60.0)));
 }
 
 void add_figures(ReflectionPage& page, const ReflectedSun& sun, const SunPlan& plan) {
@@ -120,7 +121,7 @@ ReflectionTable table_of_panels(const ReflectedSun& sun) {
       "The panels that throw most light. From and to bound the time; minutes "
       "count the steps at which something got light.",
       {"Panel", "From", "To", "Minutes", "Greatest lx", "Light, klm", "Reflectance", "Least lit"},
-      3,
+      1,
       {},
       ""};
   std::vector<std::size_t> order(sun.panels.size());
@@ -158,7 +159,7 @@ ReflectionTable table_of_objects(const ReflectedSun& sun, const LitScene& lit) {
                         "Objects that get reflected sunlight, the brightest first; the greatest "
                         "illuminance is that of one panel.",
                         {"Object", "First", "Last", "Greatest lx", "Windows of time"},
-                        3,
+                        1,
                         {},
                         ""};
   std::map<std::uint32_t, ObjectSum> objects;
@@ -195,8 +196,8 @@ ReflectionTable table_of_views(const ReflectionReport& request, const ReflectedS
       "within half a minute; its direction when most of the disc is seen; the angle from the way "
       "ahead or the window's normal; the luminance of the disc in the panel.",
       {"Observer", "Panel", "From", "To", "Azimuth", "Altitude", "Angle", "Luminance, cd/m²",
-       "Share of the disc"},
-      4,
+       "Disc seen"},
+      2,
       {},
       ""};
   const std::size_t shown = std::min(4 * kMostRows, request.views->size());

@@ -126,6 +126,8 @@ double clear_pane(double cos_incidence, double index) {
 
 }  // namespace
 
+constexpr std::size_t kFewEdges = 256;
+
 struct RayVisibility::Device {
   EmbreeDevice device;
   std::vector<std::uint32_t> opaque, glass;  ///< triangle of the soup behind each primitive
@@ -145,6 +147,7 @@ RayVisibility::RayVisibility(const TriangleSoup& soup, const std::vector<Materia
   if (!device_->device) throw ResourceError("there is no ray-tracing device");
   device_->opaque_scene = build_scene(device_->device.get(), soup, device_->opaque);
   device_->glass_scene = build_scene(device_->device.get(), soup, device_->glass);
+  if (!has_glass()) few_edges_ = few_sharp_edges(soup, adjacency_, kFewEdges);
 }
 
 RayVisibility::~RayVisibility() = default;

@@ -12,6 +12,7 @@
 #include "scene/material.h"
 #include "scene/triangle_soup.h"
 #include "visibility/mesh_adjacency.h"
+#include "visibility/sharp_edge.h"
 #include "visibility/visibility.h"
 
 namespace tenku {
@@ -60,6 +61,8 @@ class RayVisibility : public Visibility {
   const TriangleSoup& soup() const { return soup_; }
   const std::vector<Material>& materials() const { return materials_; }
   const MeshAdjacency& adjacency() const { return adjacency_; }
+  /// All edges that can bound what is seen; none where they are many, or where there is glass.
+  std::span<const SharpEdge> few_edges() const { return few_edges_; }
   Vec3 normal(std::uint32_t triangle) const;
   /// The point moved into the plane of the triangle: where a ray met it, without the rounding of
   /// its distance.
@@ -73,6 +76,7 @@ class RayVisibility : public Visibility {
   const std::vector<Material>& materials_;
   MeshAdjacency adjacency_;
   double lift_m_;
+  std::vector<SharpEdge> few_edges_;
   std::unique_ptr<Device> device_;
 };
 

@@ -343,5 +343,38 @@ TEST(SunThrow, LightOnCoincidentGroundLandsOnce) {
   EXPECT_NEAR(lumen_of(thrown), kNormalLux * 8.0 * std::abs(sun.y), 1e-3);
 }
 
+TEST(SunThrow, AWindowInThePlaneOfAWallThatWasNotCutForItMirrors) {
+  for (const double off : {0.0, 0.0005, -0.0005}) {  // the wall, before or behind
+    Bench bench({mirror_of(1.0)});
+    bench.scene.level({-100, -100, 100, 100}, 0.0);
+    bench.scene.begin_object();
+    bench.scene.wall({-10, off, 10, off}, 0.0, 10.0);
+    bench.scene.begin_object();
+    bench.scene.wall({-1, 0, 1, 0}, 2.0, 4.0, 1);
+    const Vec3 sun = sun_at_degrees(200.0, 30.0);
+    const ThrownSun thrown = bench.thrown(sun);
+    EXPECT_NEAR(lumen_of(thrown), kNormalLux * 4.0 * std::abs(sun.y), 1e-3) << off;
+  }
+}
+
+TEST(SunThrow, TenThousandNearlyCoplanarPanelsLoseNoLight) {
+  // Turned by up to 0.01 degrees, each by itself; edges are shared with neighbours or cross them.
+  Bench bench({mirror_of(1.0)});
+  bench.scene.level({-400, -400, 400, 400}, 0.0);
+  SampleRandom random(3, 0, 0);
+  for (int k = 0; k < 10000; ++k) {
+    bench.scene.begin_object();
+    const double x = k % 100, z = 10.0 + k / 100;
+    const double dy = 0.5 * std::tan(0.01 * kPi / 180.0) * (2.0 * random.uniform() - 1.0);
+    bench.scene.wall({x, -dy, x + 1.0, dy}, z, z + 1.0, 1);
+  }
+  const Vec3 sun = sun_at_degrees(200.0, 50.0);
+  const ThrownSun thrown = bench.thrown(sun);
+  EXPECT_EQ(bench.panels.size(), 10000U);
+  const double light = kNormalLux * 10000.0 * std::abs(sun.y);
+  EXPECT_NEAR(lumen_of(thrown), light, 1e-3 * light);
+  EXPECT_NEAR(thrown.landed_lm + thrown.sky_lm, thrown.started_lm, 1e-9 * light);
+}
+
 }  // namespace
 }  // namespace tenku

@@ -70,9 +70,9 @@ TEST(SkyLight, SkyFactorBesideABoxIsThatOfTheClosedForm) {
   }
   const double scatter = std::sqrt(squares / static_cast<double>(count));
   std::printf("[ MEASURED ] the same, root mean square: %.3g\n", scatter);
-  // A tolerance is four standard errors.
-  EXPECT_LE(scatter, 2.5e-4);
-  EXPECT_LE(worst.worst(), 1e-3);
+  // Four standard errors were asked for; where all edges are known, far more is given.
+  EXPECT_LE(scatter, 2e-5);
+  EXPECT_LE(worst.worst(), 1e-4);
 }
 
 void measure_coverage(const std::vector<ReferenceCase>& cases, const std::string& name) {
@@ -90,9 +90,8 @@ void measure_coverage(const std::vector<ReferenceCase>& cases, const std::string
     }
     std::printf("[ MEASURED ] interval, %s, tolerance %g: holds %.1f %% of %zu\n", name.c_str(),
                 tolerance, coverage.pct(), coverage.count());
-    // No upper limit: once all outlines are met the value is exact, and the interval what a few
-    // tests could not rule out.
     EXPECT_GE(coverage.pct(), 93.0) << name << " at " << tolerance;
+    EXPECT_LE(coverage.pct(), 99.0) << name << " at " << tolerance;
   }
 }
 
