@@ -132,6 +132,7 @@ class BeamPaths : public PixelPaths {
         beams.insert(beams.begin(), at);
       }
       chain_.push_back(std::move(beams));
+      linear_.push_back(LinearDirection(tree_.beams[b].view));
     }
     for (const BeamRegion& region : tree_.regions) is_alone_.push_back(shows_background(region));
   }
@@ -144,8 +145,8 @@ class BeamPaths : public PixelPaths {
       if (!is_alone_[r]) return std::nullopt;
       const std::uint32_t b = tree_.regions[r].beam;
       const WindowPoint p{x + kRayPlaces[s][0], y + kRayPlaces[s][1]};
-      const Vec3 direction = normalized(tree_.beams[b].view.direction(p));
-      sum = sum + weight_of(b, p) * backdrop_.colour(direction);
+      const Rgb seen = backdrop_.colour(normalized(linear_[b].direction(p)));
+      sum = sum + (chain_[b].empty() ? seen : weight_of(b, p) * seen);
     }
     return 1.0 / kRayPlaces.size() * sum;
   }
@@ -181,6 +182,17 @@ class BeamPaths : public PixelPaths {
     return places;
   }
 
+  /// The directions of a beam from a point, ready for millions of places.
+  struct LinearDirection {
+    Vec3 at_origin, by_u, by_v;
+
+    explicit LinearDirection(const BeamView& view)
+        : at_origin(view.direction({0.0, 0.0})),
+          by_u(view.direction({1.0, 0.0}) - at_origin),
+          by_v(view.direction({0.0, 1.0}) - at_origin) {}
+    Vec3 direction(WindowPoint p) const { return at_origin + p.u * by_u + p.v * by_v; }
+  };
+
   std::size_t pixel_at(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
            static_cast<std::size_t>(x);
@@ -202,7 +214,7 @@ class BeamPaths : public PixelPaths {
     Rgb weight{1.0, 1.0, 1.0};
     for (const std::uint32_t at : chain_[b]) {
       const BeamFace& mirror = faces_[tree_.beams[at].mirror];
-      const Vec3 direction = normalized(tree_.beams[at].view.direction(p));
+      const Vec3 direction = normalized(linear_[at].direction(p));
       weight = weight * mirror_reflectance(rays_.materials()[mirror.material],
                                            std::abs(dot(mirror.plane.normal, direction)));
     }
@@ -243,7 +255,8 @@ class BeamPaths : public PixelPaths {
   BeamTree tree_;
   RegionMap map_;
   std::vector<std::vector<std::uint32_t>> chain_;  ///< [beam], the first beam left out
-  std::vector<bool> is_alone_;                     ///< [region]
+  std::vector<LinearDirection> linear_;            ///< [beam]
+  std::vector<std::uint8_t> is_alone_;             ///< [region]
   int width_;
 };
 

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "support/mirror_scene.h"
 #include "core/error.h"
+#include "support/mirror_scene.h"
 
 namespace tenku::testing_support {
 namespace {

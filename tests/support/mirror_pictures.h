@@ -55,7 +55,7 @@ inline MirrorPicture one_cuboid() {
 
 inline MirrorPicture two_cuboids() {
   MirrorPicture made{
-      "two cuboids, a grey floor", {}, seen_from({0.2, -6, 2.5}, {0, 0, 0.6}, 45.0), 6};
+      "two cuboids on a grey floor", {}, seen_from({0.2, -6, 2.5}, {0, 0, 0.6}, 45.0), 6};
   made.scene.box({-1.6, -0.9, 0}, {-0.5, 0.9, 1.8}, 1);
   made.scene.box({0.5, -1.1, 0}, {1.7, 0.7, 1.5}, 1);
   made.scene.rectangle({0, 0, -0.01}, {4, 0, 0}, {0, 4, 0}, 0);
@@ -86,7 +86,8 @@ inline Vec3 tilted(Vec3 side, Vec3 normal, double by) { return side + by * norma
 
 /// Four towers about a crossing, each with 50 panes that are tilted by some hundredths of a degree.
 inline MirrorPicture towers() {
-  MirrorPicture made{"four towers, 200 panes", {}, seen_from({-4, -38, 2}, {1, 0, 11}, 65.0), 6};
+  MirrorPicture made{
+      "four towers of 200 panes", {}, seen_from({2.5, -15, 4}, {-1, 4, 11}, 85.0), 6};
   std::mt19937 chance(1);
   std::uniform_real_distribution<double> tilt(-1e-3, 1e-3);
   const auto facade = [&](Vec3 corner, Vec3 along) {
