@@ -219,7 +219,6 @@ RenderedView render_view(const ViewRequest& request, const Engines& engines,
   result.luminance = Image(work.camera.width(), work.camera.height());
   result.rays = points.rays + light.rays;
   result.regions = light.regions;
-  result.mirrors = work.mirrors.used;
   result.findings = work.mirrors.findings;
   if (request.mirrors.method != MirrorMethod::Off) {
     tell_cut(points, request.mirrors.depth, result.findings);

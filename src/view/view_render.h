@@ -41,7 +41,6 @@ struct RenderedView {
   std::vector<double> illuminance_lux, error_lux;  ///< NaN where the sky is seen
   std::uint64_t rays = 0;
   std::size_t out_of_tolerance = 0;           ///< pixels for which the limit of effort came first
-  MirrorMethod mirrors = MirrorMethod::Rays;  ///< how they were followed
   std::vector<Finding> findings;
   double error_mean = 0.0;  ///< mean of error_lux over the pixels that have one
   std::vector<PlannedRegion> regions;

@@ -92,14 +92,28 @@ TEST(Materials, AllKeysAreRead) {
   EXPECT_EQ(pane.reflectance, Rgb{});  // a clear pane scatters nothing unless it is said
 }
 
+TEST(Materials, MirrorsHaveColoursAndPanesOfAnIndexTheirReflectance) {
+  const Scene scene =
+      read_with("[plaster]\nmirror = [0.5, 0.8, 0.9]\n[wall]\nmirror_index = 1.52\n");
+  const Material& tinted = scene.materials[scene.surfaces.material[0]];
+  EXPECT_NEAR(tinted.mirror, 0.2126 * 0.5 + 0.7152 * 0.8 + 0.0722 * 0.9, 1e-15);
+  EXPECT_NEAR(tinted.mirror * tinted.mirror_tint.r, 0.5, 1e-15);
+  EXPECT_NEAR(tinted.mirror * tinted.mirror_tint.b, 0.9, 1e-15);
+  const Material& pane = scene.materials[scene.surfaces.material[1]];
+  EXPECT_NEAR(pane.mirror, 0.0816820, 1e-7);  // (n - 1)^2 / (n^2 + 1): both faces, series summed
+  EXPECT_EQ(pane.reflectance, Rgb{});
+  EXPECT_FALSE(pane.is_glass());
+}
+
 TEST(Materials, ValuesOutOfRangeAreRefusedWithTheirPlace) {
   EXPECT_NE(refusal("[wall]\nreflectance = 1.2\n").find("line 2: wall.reflectance = 1.2"),
             std::string::npos);
   for (const char* toml :
        {"[wall]\nreflectance = 1.0", "[wall]\nreflectance = nan", "[wall]\nreflectance = -0.1",
         "[wall]\nreflectance = [0.1, 0.2]", "[wall]\nreflectance = \"white\"",
-        "[wall]\nmirror = 1.1", "[wall]\nindex = 0.9", "[wall]\nindex = inf",
-        "[wall]\ntransmittance = -1", "[wall]\nemission_lm_m2 = -5", "wall = 0.5", "[wall",
+        "[wall]\nmirror = 1.1", "[wall]\nmirror = [0.5, 0.5, -0.1]", "[wall]\nmirror_index = 0.5",
+        "[wall]\nindex = 0.9", "[wall]\nindex = inf", "[wall]\ntransmittance = -1",
+        "[wall]\nemission_lm_m2 = -5", "wall = 0.5", "[wall",
         "[wall]\nindex = 1.5\ntransmittance = 0.8"}) {
     EXPECT_NE(refusal(toml).find("materials.toml"), std::string::npos) << toml;
   }
