@@ -112,7 +112,8 @@ void SensorSky::fill_gaps() {
   is_filled_ = true;
   for (std::size_t i = 0; i < count; ++i) {
     refined.push_back(entry_[i]);
-    if (variance[i] <= square(kWorthFilling) * worst) continue;
+    // Where no gap is worse than another (all is known), each is filled.
+    if (worst > 0.0 && variance[i] <= square(kWorthFilling) * worst) continue;
     const double width = width_after(i), random = 0.3 + 0.4 * random_.uniform();
     const GapLight& gap = entry_[i].gap;
     const bool has_hole = gap.hole_width > kLeastHole * width && !gap.is_blind;

@@ -44,7 +44,7 @@ struct MeshLoopOptions {
   int rounds = 3;                ///< meshes after the first, at most
   /// [polygon] lines that edges of bubble meshes follow, and which part them where things touch; or
   /// none at all.
-  std::vector<ShadowEdges> edges;
+  std::vector<ShadowEdges> edges{};
 };
 
 /// One mesh that was solved.

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "cli/lit_scene_files.h"
 #include "support/measured.h"
@@ -74,21 +75,33 @@ TEST(RoomLight, AWayOfReflectionThatDoesNotExistIsNamed) {
   EXPECT_NE(run.err.find("radiosity"), std::string::npos) << run.err;
 }
 
-TEST(RoomLight, LampsThatPathsMustMeetByChanceAreToldOf) {
+TEST(RoomLight, LampsInMirrorsThatPathsMeetByChanceAreToldOf) {
   const fs::path folder = test_folder();
   write_sensors(folder);
   const std::string box = TENKU_SOURCE_DIR "/scenes/verification/cornell_box/";
-  const std::string lit = "illuminance " + box + "cornell_box.obj --materials " + box +
-                          "materials.toml --sky none --tolerance 50 --sensors room.pts --out ";
+  // A wall that mirrors: paths meet the lamp in it by chance.
+  std::ifstream plain(box + "materials.toml");
+  std::ofstream(folder / "mirrored.toml") << plain.rdbuf() << "\n[mirror_wall]\nmirror = 0.5\n";
+  std::ifstream model(box + "cornell_box.obj");
+  std::ofstream(folder / "box.obj")
+      << model.rdbuf() << "\nv 0 0 9\nv 1 0 9\nv 0 1 9\nusemtl mirror_wall\nf -3 -2 -1\n";
+  const std::string lit =
+      "illuminance box.obj --materials mirrored.toml --sky none --tolerance 50 "
+      "--sensors room.pts --out ";
   const auto paths = run_tenku(lit + "paths.csv --reflection paths --bounces 1", folder);
-  EXPECT_NE(paths.err.find("meet lamps by chance"), std::string::npos) << paths.err;
+  EXPECT_NE(paths.err.find("in mirrors by chance"), std::string::npos) << paths.err;
   const auto none = run_tenku(lit + "none.csv --bounces 0", folder);
-  EXPECT_EQ(none.err.find("meet lamps by chance"), std::string::npos) << none.err;
+  EXPECT_EQ(none.err.find("in mirrors by chance"), std::string::npos) << none.err;
+  const auto without = run_tenku("illuminance " + box + "cornell_box.obj --materials " + box +
+                                     "materials.toml --sky none --tolerance 50 --sensors room.pts "
+                                     "--reflection paths --bounces 1 --out without.csv",
+                                 folder);
+  EXPECT_EQ(without.err.find("in mirrors by chance"), std::string::npos) << without.err;
   const auto daylit =
       run_tenku("illuminance " + kRoomModel + kRoomLight +
                     " --tolerance 20 --reflection paths --bounces 1 --out daylit.csv",
                 folder);
-  EXPECT_EQ(daylit.err.find("meet lamps by chance"), std::string::npos) << daylit.err;
+  EXPECT_EQ(daylit.err.find("in mirrors by chance"), std::string::npos) << daylit.err;
 }
 
 }  // namespace
