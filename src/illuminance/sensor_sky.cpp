@@ -20,7 +20,7 @@ constexpr double kFewPlaces = 0.1;   // of the gaps hold what is not known
 // What they tell.
 constexpr double kMissed = 0.4;       // of what the neighbours of a slice missed is missed still
 constexpr double kDoubt = 2.0;        // misses that might be of steps known by now
-constexpr double kPriorTests = 4.0;   // before any test so many count as made,
+constexpr double kPriorTests = 6.0;   // before any test so many count as made,
 constexpr double kPriorMiss = 0.5;    // and so much of the mean light as missed in them
 constexpr double kLeastKnown = 1e-4;  // radians of azimuth, where nothing was tested
 constexpr double kPriorShare = 0.25;  // of the open sky that a hole shows

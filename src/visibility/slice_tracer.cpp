@@ -54,9 +54,11 @@ bool SliceTracer::crosses(std::uint32_t triangle) const {
 }
 
 SliceTracer::PlanePoint SliceTracer::edge_point(const Corner& a, const Corner& b) const {
-  const double t = a.side / (a.side - b.side);
-  const double x = a.at.x + t * (b.at.x - a.at.x), y = a.at.y + t * (b.at.y - a.at.y);
-  return {x * plane_.along.x + y * plane_.along.y, a.at.z + t * (b.at.z - a.at.z)};
+  // The mean of the ends, weighted by how far the other lies beside the plane; not divided by the
+  // weights, as only ratios and signs of what comes out matter on the way.
+  const double of_a = std::abs(b.side), of_b = std::abs(a.side);
+  const double x = of_a * a.at.x + of_b * b.at.x, y = of_a * a.at.y + of_b * b.at.y;
+  return {x * plane_.along.x + y * plane_.along.y, of_a * a.at.z + of_b * b.at.z, of_a + of_b};
 }
 
 SliceTracer::Outline SliceTracer::follow(std::uint32_t triangle, int sense) const {
@@ -98,7 +100,7 @@ SliceTracer::Outline SliceTracer::follow(std::uint32_t triangle, int sense) cons
   const auto& corners = soup.triangles[triangle];
   return {altitude,
           triangle,
-          std::sqrt(best.r * best.r + best.z * best.z),
+          std::sqrt(best.r * best.r + best.z * best.z) / best.scale,
           {corners[edge], corners[(edge + 1) % 3]}};
 }
 

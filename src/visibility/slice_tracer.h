@@ -79,9 +79,10 @@ class SliceTracer {
   struct Plane {
     Vec3 along, across;
   };
-  /// A point in the plane: horizontal distance and height, both from the origin.
+  /// A point in the plane: horizontal distance and height, both from the origin and times `scale`,
+  /// which is positive.
   struct PlanePoint {
-    double r, z;
+    double r, z, scale;
   };
   /// A vertex seen from the origin, and how far beside the plane it lies.
   struct Corner {
@@ -106,6 +107,7 @@ class SliceTracer {
   static bool parted(const Corner& a, const Corner& b) {
     return (a.side >= 0.0) != (b.side >= 0.0);
   }
+  /// Where the plane cuts an edge with ends on either side.
   PlanePoint edge_point(const Corner& a, const Corner& b) const;
   /// Follows the mesh from `triangle` toward rising (+1) or falling (-1) altitude.
   Outline follow(std::uint32_t triangle, int sense) const;
