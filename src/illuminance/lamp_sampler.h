@@ -17,7 +17,7 @@ namespace tenku {
 /// flux; a point on that evenly.
 ///
 /// Where lamps fill most of the view, paths meet them often enough, and a choice of points would
-/// only add noise: `ViewOfLamps::is_worth_looking` says so.
+/// only add noise: `View::is_worth_looking` says so.
 ///
 /// Threads  immutable after construction; may be shared.
 class LampSampler {

@@ -126,19 +126,18 @@ std::optional<bool> OutlineGap::shows(const Bearing& bearing, double sine) const
   return low.sine < sine && sine < high.sine;
 }
 
-bool OutlineGap::ends_along(const BoundaryPiece& piece) const {
-  const OutlineSegment edge(piece.a, piece.b);
-  const double turn = edge.turn();
+bool OutlineGap::ends_along(const BoundaryOutline& outline) const {
+  const double turn = outline.turn;
   const double middle_from_middle =
-      std::remainder(edge.begin() + 0.5 * turn - left_.azimuth - 0.5 * width_, 2.0 * kPi);
+      std::remainder(outline.begin + 0.5 * turn - left_.azimuth - 0.5 * width_, 2.0 * kPi);
   const double begin = middle_from_middle + 0.5 * (width_ - turn);
   const double from = std::max(0.0, begin), to = std::min(width_, begin + turn);
   if (to < from || to - from < std::min(kSpeck, 0.5 * turn)) return true;
   const double offset = 0.5 * (from + to), azimuth = left_.azimuth + offset;
   const Vec3 along{std::sin(azimuth), std::cos(azimuth), 0.0};
-  const Vec3 middle = normalized(along + edge.slope(along) * kZenith);
+  const Vec3 middle = normalized(along + outline.edge.slope(along) * kZenith);
   const auto is_told = [&](double beside) {
-    const Vec3 toward = normalized(middle + beside * piece.outward);
+    const Vec3 toward = normalized(middle + beside * outline.outward);
     const Vec3 level = normalized({toward.x, toward.y, 0.0});
     const double at = offset + along.y * level.x - along.x * level.y;
     if (at < 0.0 || at > width_) return true;  // past a slice

@@ -27,6 +27,16 @@ struct SkySlice {
   bool is_outlined = false;         ///< one visible range, bounded by `low` and `high` alone
 };
 
+/// A part of the sky's boundary, with its azimuths.
+struct BoundaryOutline {
+  explicit BoundaryOutline(const BoundaryPiece& piece)
+      : edge(piece.a, piece.b), begin(edge.begin()), turn(edge.turn()), outward(piece.outward) {}
+
+  OutlineSegment edge;
+  double begin, turn;  ///< azimuth of its first end, and the angle from there to the last, radians
+  Vec3 outward;        ///< unit vector across it, toward the sky
+};
+
 /// What a sensor looks through and at.
 struct SensorSight {
   const RayVisibility& rays;
@@ -79,7 +89,7 @@ class OutlineGap {
   LuxAndView at(const Bearing& bearing) const;
   /// Whether the sky is taken to end where this part of its boundary lies in the gap. True for
   /// what lies in its hole, or outside the gap.
-  bool ends_along(const BoundaryPiece& piece) const;
+  bool ends_along(const BoundaryOutline& outline) const;
   /// Light per radian of the unobstructed sky.
   LuxAndView open_at(const Bearing& bearing) const;
   /// Light of the gap outside its hole: by the two-point Gauss rule on parts over which the

@@ -195,13 +195,14 @@ double SensorSky::unseen_share() {
 /// Whether all that bounds the sky is among what the slices have met.
 bool SensorSky::is_whole() {
   if (!has_boundary_) {
-    boundary_ = sky_boundary(sight_.rays, sight_.origin, sight_.normal, pane_rays_);
+    const auto pieces = sky_boundary(sight_.rays, sight_.origin, sight_.normal, pane_rays_);
+    if (pieces) boundary_.emplace(pieces->begin(), pieces->end());
     has_boundary_ = true;
   }
   if (!boundary_) return false;
   for (std::size_t i = 0; i < entry_.size(); ++i) {
     const OutlineGap gap(at(i), at(i + 1), width_after(i), sight_);
-    const auto is_met = [&](const BoundaryPiece& piece) { return gap.ends_along(piece); };
+    const auto is_met = [&](const BoundaryOutline& part) { return gap.ends_along(part); };
     if (!std::all_of(boundary_->begin(), boundary_->end(), is_met)) return false;
   }
   return true;

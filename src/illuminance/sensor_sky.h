@@ -34,9 +34,8 @@ namespace tenku {
 ///            azimuth is moved at random by up to +-s/2, so that smooth parts err by a known size;
 ///          holes: the sky in them lies a share p up from the line between their ends to the open
 ///            sky. p and its scatter are learned from the slices that came to lie in holes;
-///          blind holes (beside a slice that sees no sky but not why): a step between their ends at
-///          an
-///            unknown place, w^2 h^2 / 12. Where one such error rules, the variance is lowered to
+///          blind holes (beside a slice that sees no sky but not why): a step between their ends,
+///            anywhere: w^2 h^2 / 12. Where one such error rules, the variance is lowered to
 ///            that of a normal error with the same 95 % interval;
 ///          unknown things: one of width a and height h, met by no slice (probability 1 - a/w), is
 ///            an error of ah; a slice met it and its neighbours did not foretell it (if a < 2w)
@@ -46,8 +45,7 @@ namespace tenku {
 ///            greater. kPriorTests imagined tests that failed stand in for those not made, times
 ///            the root of the chance that the next outline is a new one (measured in towns, where
 ///            that is 0.1 to 0.6). Where all that bounds the sky is known, and is what the slices
-///            have met
-///            (`sky_boundary`), there are no unknown things;
+///            have met (`sky_boundary`), there are no unknown things;
 ///          what they take away: kMissed of the mean test (smooth change: 1/6, thin things: 1;
 ///            measured in towns: 0.3 to 0.5), with a third of that as error, the less the
 ///            fewer tests have failed;
@@ -173,7 +171,7 @@ class SensorSky {
   std::vector<SeenPiece> piece_;    ///< of the last slice
   std::vector<std::uint64_t> met_;  ///< edges that bound slices, sorted; room for them
   /// All that bounds the sky, in scenes so small that it can be known.
-  std::optional<std::vector<BoundaryPiece>> boundary_;
+  std::optional<std::vector<BoundaryOutline>> boundary_;
   bool has_boundary_ = false;  ///< it has been looked for
   bool is_whole_ = false;      ///< the slices have met all of it
   Lesson lesson_;

@@ -76,6 +76,7 @@ void SkyTable::find_column_errors() {
 }
 
 double SkyTable::column_error(double azimuth_rad, double width_rad) const {
+  if (columns_ == 1) return 0.0;
   const double turns = azimuth_rad / (2.0 * kPi);
   const double from = (turns - std::floor(turns)) * columns_;
   const double to = from + width_rad / (2.0 * kPi) * columns_;

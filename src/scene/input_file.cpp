@@ -41,6 +41,8 @@ bool is_gzip(const fs::path& path) {
   return std::fread(magic, 1, 2, file.get()) == 2 && magic[0] == 0x1f && magic[1] == 0x8b;
 }
 
+}  // namespace
+
 /// An open file, unpacked as it is read.
 class UnpackedFile {
  public:
@@ -80,6 +82,8 @@ class UnpackedFile {
   std::size_t read_ = 0;
 };
 
+namespace {
+
 /// Where in `text`, from `from` on, the last line ends that is not continued; npos if none does.
 std::size_t end_of_lines(std::string_view text, std::size_t from) {
   for (std::size_t end = text.size(); end-- > from;) {
@@ -106,12 +110,7 @@ std::string read_input_file(const fs::path& path) {
   return bytes;
 }
 
-class InputLines::File : public UnpackedFile {
- public:
-  using UnpackedFile::UnpackedFile;
-};
-
-InputLines::InputLines(const fs::path& path) : file_(std::make_unique<File>(path)) {
+InputLines::InputLines(const fs::path& path) : file_(std::make_unique<UnpackedFile>(path)) {
   unpack_ahead();
 }
 

@@ -12,6 +12,8 @@ namespace tenku {
 /// @throws InputError if it is absent, a folder, not readable, empty, or a damaged gzip file
 std::string read_input_file(const std::filesystem::path& path);
 
+class UnpackedFile;
+
 /// The lines of a file in blocks, each unpacked while the one before is made use of.
 class InputLines {
  public:
@@ -27,8 +29,7 @@ class InputLines {
  private:
   void unpack_ahead();
 
-  class File;
-  std::unique_ptr<File> file_;
+  std::unique_ptr<UnpackedFile> file_;
   std::future<std::string> ahead_;
   std::string begun_;  ///< of a line, at the end of the last block
 };

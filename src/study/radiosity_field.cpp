@@ -10,33 +10,12 @@
 #include "core/random.h"
 #include "scene/scene.h"
 #include "study/illuminance_field.h"
+#include "study/named_codes.h"
 
 namespace tenku {
 namespace {
 
 constexpr double kNormalSteps = 100.0;  // of a normal's component that tells two ways to face
-
-/// Numbers given in the order of first use, with their names.
-class Codes {
- public:
-  explicit Codes(std::string name) : codes_{name, {}}, names_{std::move(name), {}} {}
-
-  template <class NameOf>
-  void add(std::uint32_t what, const NameOf& name_of_what) {
-    const auto [found, is_new] = code_.emplace(what, static_cast<std::int32_t>(code_.size()));
-    if (is_new) names_.values.emplace_back(name_of_what());
-    codes_.codes.push_back(found->second);
-  }
-  void store(FieldMesh& mesh) {
-    mesh.cell_codes.push_back(std::move(codes_));
-    mesh.texts.push_back(std::move(names_));
-  }
-
- private:
-  FieldCodes codes_;
-  FieldText names_;
-  std::unordered_map<std::uint32_t, std::int32_t> code_;
-};
 
 std::uint64_t surface_key(std::uint32_t object, std::uint32_t material, Vec3 doubled_area) {
   Vec3 n = normalized(doubled_area);
@@ -139,7 +118,7 @@ FieldMesh field_of_radiosity(const LitScene& lit, const ElementMesh& mesh, const
   FieldValues radiosity{"element_radiosity_lm_m2", {}}, unshot{"unshot_lm_m2", {}},
       size{"element_size_m", {}};
   FieldCodes patch{"patch", {}}, face{"side", {}};
-  Codes types("surface_type"), objects("object_id"), materials("material");
+  NamedCodes<std::uint32_t> types("surface_type"), objects("object_id"), materials("material");
   const SurfaceTypes known(lit.soup());
   for (std::size_t p = 0; p < mesh.patches(); ++p) {
     for (std::size_t s = 2 * mesh.patch_begin[p]; s < 2 * mesh.patch_begin[p + 1]; ++s) {
@@ -160,9 +139,9 @@ FieldMesh field_of_radiosity(const LitScene& lit, const ElementMesh& mesh, const
   points.store(field, asked_size_m);
   field.cell_values = {std::move(radiosity), std::move(unshot), std::move(size)};
   field.cell_codes = {std::move(patch), std::move(face)};
-  types.store(field);
-  objects.store(field);
-  materials.store(field);
+  types.move_to(field);
+  objects.move_to(field);
+  materials.move_to(field);
   add_place(field, lit);
   return field;
 }

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <unordered_map>
 
 #include "core/atomic_file.h"
 #include "site/local_place.h"
 #include "study/illuminance_field.h"
+#include "study/named_codes.h"
 
 namespace tenku {
 namespace {
@@ -110,26 +110,6 @@ std::string quoted(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-/// Numbers for names, in the order in which they come.
-class Codes {
- public:
-  explicit Codes(const char* name) : codes_{name, {}}, names_{name, {}} {}
-  void add(const std::string& name) {
-    const auto [found, is_new] = known_.emplace(name, static_cast<std::int32_t>(known_.size()));
-    if (is_new) names_.values.push_back(name);
-    codes_.codes.push_back(found->second);
-  }
-  void move_to(FieldMesh& mesh) {
-    mesh.cell_codes.push_back(std::move(codes_));
-    mesh.texts.push_back(std::move(names_));
-  }
-
- private:
-  FieldCodes codes_;
-  FieldText names_;
-  std::unordered_map<std::string, std::int32_t> known_;
-};
-
 }  // namespace
 
 CsvTable polygon_table(const ReflectedSun& sun, const LitScene& lit) {
@@ -207,7 +187,7 @@ FieldMesh reflection_field(const ReflectedSun& sun, const LitScene& lit) {
   const PatchTeller tell(sun, lit);
   FieldMesh mesh;
   FieldValues lux{"lux", {}}, blur{"blur_m", {}}, mirrors{"mirrors", {}}, count{"panel_count", {}};
-  Codes time("time"), object("object_id"), type("surface_type"), panel("panel");
+  NamedCodes<std::string> time("time"), object("object_id"), type("surface_type"), panel("panel");
   tell.for_each([&](std::size_t m, const SunPatch& patch) {
     std::vector<std::uint32_t> corners;
     for (const Vec3& p : patch.corners) {
@@ -225,7 +205,7 @@ FieldMesh reflection_field(const ReflectedSun& sun, const LitScene& lit) {
     panel.add(sun.panel_names[patch.panels.front()]);
   });
   mesh.cell_values = {std::move(lux), std::move(blur), std::move(mirrors), std::move(count)};
-  for (Codes* codes : {&time, &object, &type, &panel}) codes->move_to(mesh);
+  for (NamedCodes<std::string>* codes : {&time, &object, &type, &panel}) codes->move_to(mesh);
   add_place(mesh, lit);
   return mesh;
 }
