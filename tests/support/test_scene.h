@@ -115,6 +115,12 @@ inline IlluminanceOptions direct_options(double tolerance_pct, std::uint64_t see
   return options;
 }
 
+inline IlluminanceOptions with_bounces(double tolerance_pct, int bounces) {
+  IlluminanceOptions options = direct_options(tolerance_pct);
+  options.bounces = bounces;
+  return options;
+}
+
 /// How many values lie in their intervals.
 class Coverage {
  public:

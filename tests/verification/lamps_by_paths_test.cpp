@@ -15,13 +15,8 @@ using testing_support::black_material;
 using testing_support::grey_material;
 using testing_support::ReferenceTable;
 using testing_support::TestScene;
+using testing_support::with_bounces;
 using testing_support::WorstError;
-
-IlluminanceOptions with_bounces(double tolerance_pct, int bounces) {
-  auto options = testing_support::direct_options(tolerance_pct);
-  options.bounces = bounces;
-  return options;
-}
 
 std::uint32_t add_material(TestScene& scene, Material material) {
   scene.materials.push_back(std::move(material));

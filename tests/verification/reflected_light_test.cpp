@@ -11,13 +11,8 @@ namespace {
 
 using testing_support::ReferenceTable;
 using testing_support::TestScene;
+using testing_support::with_bounces;
 using testing_support::WorstError;
-
-IlluminanceOptions with_bounces(double tolerance_pct, int bounces) {
-  auto options = testing_support::direct_options(tolerance_pct);
-  options.bounces = bounces;
-  return options;
-}
 
 Material lamp(double exitance, double reflectance) {
   Material material = testing_support::grey_material(reflectance);
