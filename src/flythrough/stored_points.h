@@ -1,0 +1,55 @@
+/// Points of a fly-through: where they lie, what they are, and what light they receive.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/extent.h"
+#include "core/rgb.h"
+#include "core/vec3.h"
+
+namespace tenku {
+
+/// Surface points that a camera path sees, as a structure of arrays: all [point].
+///
+/// A point stands for a disc on its surface: `footprint_m` is the width that a sample of the
+/// picture covered there, and is the disc's diameter over sqrt(2): discs of neighbouring samples
+/// overlap.
+///
+/// Frame    local east, north, up, origin at the site; normals are unit vectors on the side that
+///          was seen.
+/// Units    metres.
+struct StoredPoints {
+  std::vector<Vec3> position, normal;
+  std::vector<float> footprint_m;
+  std::vector<std::uint32_t> object;    ///< index into the objects of the scene
+  std::vector<std::uint16_t> material;  ///< index into `StoreHeader::materials`
+
+  std::size_t size() const { return position.size(); }
+  bool empty() const { return position.empty(); }
+  Extent extent() const;
+  /// The chosen ones, in the order of `chosen`.
+  StoredPoints of(const std::vector<std::uint32_t>& chosen) const;
+};
+
+/// What the points receive under one sun and sky, its parts apart. Shape  all [point].
+///
+/// The luminance of a point is (sun + sky + reflected) times its reflectance over pi, and its
+/// emission over pi.
+struct PointLight {
+  std::vector<float> sun_lux, sky_lux;
+  std::vector<Rgb> reflected_lux;  ///< linear Rec. 709, lux each
+  /// What relighting needs: cosine-weighted visible fraction of the sky dome, 0 to 1.
+  std::vector<float> sky_view;
+
+  explicit PointLight(std::size_t points = 0)
+      : sun_lux(points), sky_lux(points), reflected_lux(points), sky_view(points) {}
+  std::size_t size() const { return sun_lux.size(); }
+  /// Sun and sky are white.
+  Rgb total_lux(std::size_t i) const {
+    return Rgb::grey(double{sun_lux[i]} + double{sky_lux[i]}) + reflected_lux[i];
+  }
+};
+
+}  // namespace tenku
