@@ -1,4 +1,4 @@
-#include <cmath>
+#include <array>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
@@ -59,12 +59,19 @@ Made checked(const Make& make) {
   }
 }
 
+/// Green, and what red and blue differ from it, each less that of the pixel before: grey skies and
+/// even ones become zeros.
 void put_map(const SkyMap& map, std::string& bytes) {
+  std::array<std::uint16_t, 3> last{};
   for (const Rgb& c : map.pixels) {
-    for (const double v : {c.r, c.g, c.b}) {
-      const std::uint16_t code = log_code(v);
-      bytes.append(reinterpret_cast<const char*>(&code), sizeof code);
+    const std::uint16_t green = log_code(c.g);
+    const std::array<std::uint16_t, 3> now{green, static_cast<std::uint16_t>(log_code(c.r) - green),
+                                           static_cast<std::uint16_t>(log_code(c.b) - green)};
+    for (std::size_t k = 0; k < now.size(); ++k) {
+      const auto less = static_cast<std::uint16_t>(now[k] - last[k]);
+      bytes.append(reinterpret_cast<const char*>(&less), sizeof less);
     }
+    last = now;
   }
 }
 
@@ -75,11 +82,16 @@ void get_map(std::string_view bytes, SkyMap& map) {
           6 * static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows)) {
     throw InputError("a record of the point store is damaged");
   }
+  std::array<std::uint16_t, 3> sum{};
   for (std::size_t at = 0; at < bytes.size(); at += 6) {
-    std::uint16_t code[3];
-    std::memcpy(code, bytes.data() + at, sizeof code);
-    map.pixels.push_back(
-        {value_of_log_code(code[0]), value_of_log_code(code[1]), value_of_log_code(code[2])});
+    std::array<std::uint16_t, 3> less{};
+    std::memcpy(less.data(), bytes.data() + at, sizeof less);
+    for (std::size_t k = 0; k < sum.size(); ++k)
+      sum[k] = static_cast<std::uint16_t>(sum[k] + less[k]);
+    const auto value = [&](int code) {
+      return value_of_log_code(static_cast<std::uint16_t>(code));
+    };
+    map.pixels.push_back({value(sum[0] + sum[1]), value(sum[0]), value(sum[0] + sum[2])});
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "view/pixel_paths.h"
 
 namespace tenku {
 namespace {
@@ -12,12 +13,6 @@ constexpr double kNearest_m = 1e-4;
 constexpr double kCone = 0.5;    // footprints that the rim of a disc lies behind its middle
 constexpr double kSteep = 16.0;  // footprints in depth that a disc may reach
 constexpr int kBands = 16;
-
-PerspectiveView finer(PerspectiveView view, int samples) {
-  view.width *= samples;
-  view.height *= samples;
-  return view;
-}
 
 }  // namespace
 
@@ -32,7 +27,8 @@ SplatChunk splat_chunk(const StoredPoints& points) {
     const Vec3 p = points.position[i] - chunk.origin, n = points.normal[i];
     chunk.points.push_back({static_cast<float>(p.x), static_cast<float>(p.y),
                             static_cast<float>(p.z), points.footprint_m[i], static_cast<float>(n.x),
-                            static_cast<float>(n.y), static_cast<float>(n.z), points.material[i]});
+                            static_cast<float>(n.y), static_cast<float>(n.z), points.material[i],
+                            points.is_edge[i]});
     chunk.finest_m = std::min(chunk.finest_m, points.footprint_m[i]);
   }
   return chunk;
@@ -42,18 +38,16 @@ SplatChunk splat_chunk(const StoredPoints& points) {
 struct SplatBuffer::Disc {
   float x, y, radius;  // samples
   float nearness, by_x, by_y;
-  float least, cone;  // of what a rim may differ; of squared samples
+  float least, cone;  // of what a rim may differ; of squared pixels
   std::uint32_t item;
 };
 
 SplatBuffer::SplatBuffer(const PerspectiveView& view, const SplatRule& rule)
-    : camera_(finer(view, rule.samples)),
+    : camera_(view),
       rule_(rule),
       width_(camera_.width()),
       height_(camera_.height()),
-      sample_(camera_.footprint_m(1.0)),
-      item_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), kNothing),
-      nearness_(item_.size(), 0.0F) {
+      pixel_(camera_.footprint_m(1.0)) {
   const BeamView window = camera_.window();
   corner_ = window.direction({0.0, 0.0});
   right_ = window.direction({1.0, 0.0}) - corner_;
@@ -68,9 +62,9 @@ bool SplatBuffer::may_show(const Extent& box, float finest_m) const {
       std::abs(forward.x) * half.x + std::abs(forward.y) * half.y + std::abs(forward.z) * half.z;
   const double farthest = dot(middle - eye, forward) + reach;
   if (farthest <= kNearest_m) return false;
-  if (finest_m > rule_.coarsest_pixels * rule_.samples * sample_ * farthest) return false;
+  if (finest_m > rule_.coarsest_pixels * pixel_ * farthest) return false;
   // Planes through the eye and the picture's edges; discs reach over them by their radius.
-  const double margin = 4.0 * rule_.samples;
+  constexpr double margin = 4.0;
   const Vec3 last_column = corner_ + (width_ + margin) * right_,
              first_column = corner_ - margin * right_;
   const Vec3 last_row = corner_ + (height_ + margin) * down_, first_row = corner_ - margin * down_;
@@ -97,20 +91,19 @@ void SplatBuffer::project(const SplatChunk& chunk, std::uint32_t first,
   const Vec3 eye = camera_.eye() - chunk.origin, forward = camera_.forward();
   const double per = 1.0 / dot(right_, right_);
   const double from_x = dot(corner_, right_) * per, from_y = dot(corner_, down_) * per;
-  const double coarsest = rule_.coarsest_pixels * rule_.samples;
   for (std::size_t i = 0; i < chunk.points.size(); ++i) {
     const SplatChunk::Point& p = chunk.points[i];
     const Vec3 d = Vec3{double{p.x}, double{p.y}, double{p.z}} - eye;
     const double depth = dot(d, forward);
     if (!(depth > kNearest_m)) continue;
-    const double size = p.footprint_m / (sample_ * depth);
-    if (size > coarsest) continue;
+    const double size = p.footprint_m / (pixel_ * depth);
+    if (size > rule_.coarsest(p.is_edge != 0)) continue;
     const Vec3 n{double{p.nx}, double{p.ny}, double{p.nz}};
     const double above = dot(n, d);  // negative: the side that was seen
     if (above >= 0.0) continue;
     const double x = dot(d, right_) * per / depth - from_x,
                  y = dot(d, down_) * per / depth - from_y;
-    const double radius = 0.5 * rule_.overlap * std::max(1.0, size);
+    const double radius = 0.5 * std::max(rule_.least_pixels, rule_.overlap * size);
     if (x + radius < 0.0 || y + radius < 0.0 || x - radius > width_ || y - radius > height_)
       continue;
     const double nearness = 1.0 / depth;
@@ -124,24 +117,27 @@ void SplatBuffer::project(const SplatChunk& chunk, std::uint32_t first,
 }
 
 void SplatBuffer::fill(const Disc& disc, int top, int bottom) {
-  const int x0 = std::max(0, static_cast<int>(std::ceil(disc.x - disc.radius - 0.5F)));
-  const int x1 = std::min(width_ - 1, static_cast<int>(std::floor(disc.x + disc.radius - 0.5F)));
-  const int y0 = std::max(top, static_cast<int>(std::ceil(disc.y - disc.radius - 0.5F)));
-  const int y1 = std::min(bottom - 1, static_cast<int>(std::floor(disc.y + disc.radius - 0.5F)));
+  const int x0 = std::max(0, static_cast<int>(std::floor(disc.x - disc.radius)));
+  const int x1 = std::min(width_ - 1, static_cast<int>(std::floor(disc.x + disc.radius)));
+  const int y0 = std::max(top, static_cast<int>(std::floor(disc.y - disc.radius)));
+  const int y1 = std::min(bottom - 1, static_cast<int>(std::floor(disc.y + disc.radius)));
   const float most = disc.radius * disc.radius;
   for (int y = y0; y <= y1; ++y) {
-    const float dy = static_cast<float>(y) + 0.5F - disc.y;
     for (int x = x0; x <= x1; ++x) {
-      const float dx = static_cast<float>(x) + 0.5F - disc.x;
-      const float off = dx * dx + dy * dy;
-      if (off > most) continue;
-      const float slope = std::clamp(disc.by_x * dx + disc.by_y * dy, -disc.least, disc.least);
-      const float nearness = std::max(disc.nearness + slope - disc.cone * off, 1e-9F);
-      const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                             static_cast<std::size_t>(x);
-      if (nearness > nearness_[at] || (nearness == nearness_[at] && disc.item < item_[at])) {
-        nearness_[at] = nearness;
-        item_[at] = disc.item;
+      const std::size_t pixel = index(x, y, 0);
+      const float to_x = static_cast<float>(x) - disc.x, to_y = static_cast<float>(y) - disc.y;
+      for (std::size_t s = 0; s < kSamples; ++s) {
+        const float dx = to_x + static_cast<float>(kRayPlaces[s][0]),
+                    dy = to_y + static_cast<float>(kRayPlaces[s][1]);
+        const float off = dx * dx + dy * dy;
+        if (off > most) continue;
+        const float slope = std::clamp(disc.by_x * dx + disc.by_y * dy, -disc.least, disc.least);
+        const float nearness = std::max(disc.nearness + slope - disc.cone * off, 1e-9F);
+        const std::size_t at = pixel + s;
+        if (nearness > nearness_[at] || (nearness == nearness_[at] && disc.item < item_[at])) {
+          nearness_[at] = nearness;
+          item_[at] = disc.item;
+        }
       }
     }
   }
@@ -156,8 +152,8 @@ void SplatBuffer::draw(std::span<const SplatChunk* const> chunks) {
   parallel_for(chunks.size(), 1, [&](IndexRange range) {
     for (std::size_t c = range.begin; c < range.end; ++c) project(*chunks[c], first_[c], discs[c]);
   });
-  std::fill(item_.begin(), item_.end(), kNothing);
-  std::fill(nearness_.begin(), nearness_.end(), 0.0F);
+  item_.assign(index(0, height_, 0), kNothing);
+  nearness_.assign(item_.size(), 0.0F);
   parallel_for(kBands, 1, [&](IndexRange range) {
     for (std::size_t band = range.begin; band < range.end; ++band) {
       const int top = static_cast<int>(band) * height_ / kBands,

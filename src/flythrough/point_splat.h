@@ -16,13 +16,15 @@ namespace tenku {
 /// How points become discs on the screen. Gathering and playback must use the same rule: what
 /// gathering finds covered is covered in playback.
 struct SplatRule {
-  int samples = 2;  ///< a side of a pixel: the picture is drawn that much finer, then averaged
-  /// A point is drawn as a round disc of this many times its footprint across, at least this many
-  /// samples.
+  /// A point is drawn as a round disc of this many times its footprint across.
   double overlap = 1.5;
-  /// Points that would be wider than this many pixels (before `overlap`) are not drawn: finer ones
-  /// were gathered for such views.
-  double coarsest_pixels = 1.6;
+  /// Discs are at least this wide, so that points finer than the samples are met by some.
+  double least_pixels = 0.6;
+  /// Points whose footprint would be wider than this are not drawn: finer ones were gathered for
+  /// such views.
+  double coarsest_pixels = 1.6, coarsest_edge_pixels = 0.8;
+
+  double coarsest(bool is_edge) const { return is_edge ? coarsest_edge_pixels : coarsest_pixels; }
 };
 
 /// Points of a chunk, ready to be drawn.
@@ -31,7 +33,8 @@ struct SplatRule {
 struct SplatChunk {
   struct Point {
     float x, y, z, footprint_m, nx, ny, nz;
-    std::uint32_t material;
+    std::uint16_t material;
+    std::uint16_t is_edge;
   };
   Vec3 origin;
   Extent extent;  ///< of the positions, local frame
@@ -53,9 +56,11 @@ SplatChunk splat_chunk(const StoredPoints& points);
 /// Of discs on one surface the nearest centre wins (a shallow cone on each disc), of surfaces the
 /// nearer. Points seen from behind are not drawn. Same bits for any number of threads.
 ///
-/// Shape    arrays [row][column] of samples: `samples` times the view's width and height.
+/// Shape    arrays [row][column][sample] of the view's pixels, each with its four samples at the
+///          places `kRayPlaces` of the rays of `render_view`; empty before `draw`.
 class SplatBuffer {
  public:
+  static constexpr std::size_t kSamples = 4;
   static constexpr std::uint32_t kNothing = std::numeric_limits<std::uint32_t>::max();
 
   /// @throws InputError as `PerspectiveCamera`
@@ -72,6 +77,13 @@ class SplatBuffer {
   int height() const { return height_; }
   /// Number of the point that a sample shows, or `kNothing`.
   const std::vector<std::uint32_t>& item() const { return item_; }
+  /// Place of a sample in the arrays.
+  std::size_t index(int x, int y, std::size_t sample) const {
+    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+            static_cast<std::size_t>(x)) *
+               kSamples +
+           sample;
+  }
   /// Of a point by its number: the place of its chunk among those drawn, and its own in the chunk.
   struct Place {
     std::size_t chunk, point;
@@ -88,8 +100,8 @@ class SplatBuffer {
   PerspectiveCamera camera_;
   SplatRule rule_;
   int width_, height_;
-  Vec3 right_, down_, corner_;  ///< of the image plane at distance 1, a sample a step
-  double sample_;               ///< width of a sample there
+  Vec3 right_, down_, corner_;  ///< of the image plane at distance 1, a pixel a step
+  double pixel_;                ///< width of a pixel there
   std::vector<std::uint32_t> item_, first_;
   std::vector<float> nearness_;
 };

@@ -43,6 +43,21 @@ std::uint32_t checksum_of(const RecordHead& head, std::string_view payload) {
 
 std::string reason() { return std::strerror(errno); }
 
+std::string read_at(int file, RecordPlace place, const std::string& name) {
+  std::string bytes(place.size, '\0');
+  for (std::size_t done = 0; done < place.size;) {
+    const ssize_t got = ::pread(file, bytes.data() + done, place.size - done,
+                                static_cast<off_t>(place.offset + done));
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) {
+      throw ResourceError("cannot read " + name + ": " +
+                          (got < 0 ? reason() : "it became shorter"));
+    }
+    done += static_cast<std::size_t>(got);
+  }
+  return bytes;
+}
+
 }  // namespace
 
 std::string StoreHeader::setting(std::string_view name) const {
@@ -90,17 +105,7 @@ struct PointStore::File {
   File& operator=(const File&) = delete;
 
   std::string read(std::uint64_t offset, std::size_t count) const {
-    std::string bytes(count, '\0');
-    for (std::size_t done = 0; done < count;) {
-      const ssize_t got =
-          ::pread(number, bytes.data() + done, count - done, static_cast<off_t>(offset + done));
-      if (got < 0 && errno == EINTR) continue;
-      if (got <= 0)
-        throw ResourceError("cannot read " + name + ": " +
-                            (got < 0 ? reason() : "it became shorter"));
-      done += static_cast<std::size_t>(got);
-    }
-    return bytes;
+    return read_at(number, {offset, count}, name);
   }
 };
 
@@ -145,7 +150,7 @@ PointStore::PointStore(PointStore&&) noexcept = default;
 
 void PointStore::take(const Record& record) {
   const RecordHead& head = record.head;
-  const Place place{record.offset, record.head.size};
+  const RecordPlace place{record.offset, record.head.size};
   const bool is_first = bytes_ == kMagic.size();
   if (is_first != head.is(kHeaderKind)) throw InputError("its header is not its first record");
   if (head.is(kHeaderKind)) {
@@ -192,7 +197,7 @@ bool PointStore::has_light(std::size_t chunk, std::size_t lighting) const {
 }
 
 StoredPoints PointStore::points(std::size_t chunk) const {
-  const Place place = geometry_.at(chunk);
+  const RecordPlace place = geometry_.at(chunk);
   return unpacked_points(file_->read(place.offset, place.size));
 }
 
@@ -201,7 +206,7 @@ PointLight PointStore::light(std::size_t chunk, std::size_t lighting) const {
     throw InputError(file_->name + " has no light " + std::to_string(lighting) + " of chunk " +
                      std::to_string(chunk));
   }
-  const Place place = *light_[lighting][chunk];
+  const RecordPlace place = *light_[lighting][chunk];
   PointLight light = unpacked_light(file_->read(place.offset, place.size));
   if (light.size() != info_[chunk].points) {
     throw InputError(file_->name + ": a record of the point store is damaged");
@@ -211,7 +216,7 @@ PointLight PointStore::light(std::size_t chunk, std::size_t lighting) const {
 
 PointStoreWriter::PointStoreWriter(const fs::path& file, const StoreHeader& header)
     : name_(file.string()) {
-  file_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  file_ = ::open(name_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (file_ < 0) throw ResourceError("cannot write " + name_ + ": " + reason());
   try {
     if (::write(file_, kMagic.data(), kMagic.size()) != static_cast<ssize_t>(kMagic.size())) {
@@ -228,9 +233,10 @@ PointStoreWriter::PointStoreWriter(const fs::path& file, const StoreHeader& head
 PointStoreWriter::PointStoreWriter(const fs::path& file) : name_(file.string()) {
   const PointStore store(file);
   bytes_ = store.bytes();
-  chunks_ = store.chunks().size();
+  info_ = store.chunks();
+  geometry_ = store.places();
   lightings_ = store.lightings().size();
-  file_ = ::open(name_.c_str(), O_WRONLY | O_CLOEXEC);
+  file_ = ::open(name_.c_str(), O_RDWR | O_CLOEXEC);
   if (file_ < 0) throw ResourceError("cannot write " + name_ + ": " + reason());
   if (::ftruncate(file_, static_cast<off_t>(bytes_)) != 0 || ::lseek(file_, 0, SEEK_END) < 0) {
     const std::string why = reason();
@@ -263,18 +269,27 @@ std::size_t PointStoreWriter::add_lighting(const StoreLighting& lighting) {
 }
 
 std::size_t PointStoreWriter::add_points(const StoredPoints& points) {
-  append(kPointsKind, static_cast<std::uint32_t>(chunks_), 0, packed(points));
-  return chunks_++;
+  const std::string bytes = packed(points);
+  const RecordPlace place{bytes_ + kRecordHead, bytes.size()};
+  append(kPointsKind, static_cast<std::uint32_t>(info_.size()), 0, bytes);
+  geometry_.push_back(place);
+  info_.push_back(chunk_info(bytes));
+  return info_.size() - 1;
+}
+
+StoredPoints PointStoreWriter::points(std::size_t chunk) const {
+  return unpacked_points(read_at(file_, geometry_.at(chunk), name_));
 }
 
 void PointStoreWriter::add_light(std::size_t chunk, std::size_t lighting, const PointLight& light) {
-  expects(chunk < chunks_ && lighting < lightings_, "light belongs to a chunk and a lighting");
+  expects(chunk < info_.size() && lighting < lightings_, "light belongs to a chunk and a lighting");
   append(kLightKind, static_cast<std::uint32_t>(chunk), static_cast<std::uint32_t>(lighting),
          packed(light));
 }
 
 void PointStoreWriter::end_frames(std::size_t frames) {
-  append(kFramesKind, static_cast<std::uint32_t>(frames), static_cast<std::uint32_t>(chunks_), {});
+  append(kFramesKind, static_cast<std::uint32_t>(frames), static_cast<std::uint32_t>(info_.size()),
+         {});
 }
 
 }  // namespace tenku

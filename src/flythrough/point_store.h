@@ -83,6 +83,12 @@ struct ChunkInfo {
   float finest_m = 0.0F, coarsest_m = 0.0F;  ///< of the footprints
 };
 
+/// Where the bytes of a record lie in the file.
+struct RecordPlace {
+  std::uint64_t offset = 0;
+  std::size_t size = 0;
+};
+
 /// Reads a store, whole or cut off.
 ///
 /// Error    positions are off by at most 1/64 of the finest footprint of their chunk on each axis
@@ -102,6 +108,8 @@ class PointStore {
   const std::vector<StoreLighting>& lightings() const { return lightings_; }
   const std::vector<ChunkInfo>& chunks() const { return info_; }
   std::size_t point_count() const;
+  /// Where the points of each chunk lie in the file. Shape  [chunk].
+  const std::vector<RecordPlace>& places() const { return geometry_; }
   /// Frames whose points are all there.
   std::size_t frames_done() const { return frames_done_; }
   /// Chunks that those frames need; more may follow.
@@ -125,18 +133,13 @@ class PointStore {
   struct File;
   struct Record;
   void take(const Record& record);
-  std::string payload(std::uint64_t offset, std::size_t size) const;
 
-  struct Place {
-    std::uint64_t offset = 0;
-    std::size_t size = 0;
-  };
   std::unique_ptr<File> file_;
   StoreHeader header_;
   std::vector<StoreLighting> lightings_;
   std::vector<ChunkInfo> info_;
-  std::vector<Place> geometry_;
-  std::vector<std::vector<std::optional<Place>>> light_;  ///< [lighting][chunk]
+  std::vector<RecordPlace> geometry_;
+  std::vector<std::vector<std::optional<RecordPlace>>> light_;  ///< [lighting][chunk]
   std::size_t frames_done_ = 0, chunks_done_ = 0;
   std::uint64_t bytes_ = 0, torn_bytes_ = 0;
 };
@@ -165,6 +168,10 @@ class PointStoreWriter {
   void end_frames(std::size_t frames);
 
   std::uint64_t bytes() const { return bytes_; }
+  const std::vector<ChunkInfo>& chunks() const { return info_; }
+  /// A chunk as it was written, rounded.
+  /// @throws ResourceError  if reading fails
+  StoredPoints points(std::size_t chunk) const;
 
  private:
   void append(const char* kind, std::uint32_t a, std::uint32_t b, const std::string& payload);
@@ -172,7 +179,9 @@ class PointStoreWriter {
   std::string name_;
   int file_ = -1;
   std::uint64_t bytes_ = 0;
-  std::size_t chunks_ = 0, lightings_ = 0;
+  std::vector<ChunkInfo> info_;
+  std::vector<RecordPlace> geometry_;
+  std::size_t lightings_ = 0;
 };
 
 /// Points as a store gives them back: positions, normals and footprints rounded.

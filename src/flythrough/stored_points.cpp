@@ -16,6 +16,7 @@ StoredPoints StoredPoints::of(const std::vector<std::uint32_t>& chosen) const {
     some.footprint_m.push_back(footprint_m[i]);
     some.object.push_back(object[i]);
     some.material.push_back(material[i]);
+    some.is_edge.push_back(is_edge[i]);
   }
   return some;
 }

@@ -14,8 +14,7 @@ namespace tenku {
 /// Surface points that a camera path sees, as a structure of arrays: all [point].
 ///
 /// A point stands for a disc on its surface: `footprint_m` is the width that a sample of the
-/// picture covered there, and is the disc's diameter over sqrt(2): discs of neighbouring samples
-/// overlap.
+/// picture covered there.
 ///
 /// Frame    local east, north, up, origin at the site; normals are unit vectors on the side that
 ///          was seen.
@@ -25,6 +24,8 @@ struct StoredPoints {
   std::vector<float> footprint_m;
   std::vector<std::uint32_t> object;    ///< index into the objects of the scene
   std::vector<std::uint16_t> material;  ///< index into `StoreHeader::materials`
+  /// 1 within a pixel of where another surface is seen, otherwise 0: such discs must stay small.
+  std::vector<std::uint8_t> is_edge;
 
   std::size_t size() const { return position.size(); }
   bool empty() const { return position.empty(); }

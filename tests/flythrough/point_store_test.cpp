@@ -76,6 +76,7 @@ StoredPoints points_of(std::uint64_t seed, std::size_t count) {
     points.footprint_m.push_back(static_cast<float>(0.02 + 0.2 * random.uniform()));
     points.object.push_back(static_cast<std::uint32_t>(1e6 * random.uniform()));
     points.material.push_back(static_cast<std::uint16_t>(2 * random.uniform()));
+    points.is_edge.push_back(random.uniform() < 0.3 ? 1 : 0);
   }
   return points;
 }
@@ -129,6 +130,7 @@ TEST_F(PointStoreFile, GivesBackWhatItWasGivenWithinItsBounds) {
       expect_near(got.footprint_m[i], want.footprint_m[i]);
       EXPECT_EQ(got.object[i], want.object[i]);
       EXPECT_EQ(got.material[i], want.material[i]);
+      EXPECT_EQ(got.is_edge[i], want.is_edge[i]);
       expect_near(read.sun_lux[i], light.sun_lux[i]);
       expect_near(read.sky_lux[i], light.sky_lux[i]);
       expect_near(read.reflected_lux[i].r, light.reflected_lux[i].r);
