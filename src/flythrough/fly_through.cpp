@@ -134,6 +134,7 @@ class FlyThrough {
     join(some.object, all.object);
     join(some.material, all.material);
     join(some.is_edge, all.is_edge);
+    join(some.borders, all.borders);
   }
 
   /// Points of frames until they are enough for a batch. Chunks of a batch that was cut off are in

@@ -233,6 +233,9 @@ std::string packed(const StoredPoints& points) {
   columns.put(2, [&](std::size_t i) { return points.material[i]; });
   columns.put(2, [&](std::size_t i) { return log_code(points.footprint_m[i]); });
   columns.put(1, [&](std::size_t i) { return points.is_edge[i]; });
+  for (std::size_t k = 0; k < 4; ++k) {
+    columns.put(1, [&](std::size_t i) { return points.borders[i].code[k]; });
+  }
   return head.take() + deflated(columns.planes());
 }
 
@@ -253,11 +256,12 @@ StoredPoints unpacked_points(std::string_view bytes) {
   const ChunkInfo info = chunk_info(bytes);
   const auto step = ByteReader(bytes.substr(4 + 6 * 8)).get<double>();
   const std::string planes = inflated(bytes.substr(kChunkHead));
-  if (planes.size() != info.points * 25) refuse_damaged();
+  if (planes.size() != info.points * 29) refuse_damaged();
   const std::size_t n = info.points;
   StoredPoints points;
   points.position.resize(n), points.normal.resize(n), points.footprint_m.resize(n);
-  points.object.resize(n), points.material.resize(n), points.is_edge.resize(n);
+  points.object.resize(n), points.material.resize(n), points.is_edge.resize(n),
+      points.borders.resize(n);
   std::vector<OctahedralCode> normal(n);
   ColumnReader columns(planes, n);
   const Vec3 low = info.extent.min;
@@ -272,6 +276,10 @@ StoredPoints unpacked_points(std::string_view bytes) {
     points.footprint_m[i] = static_cast<float>(value_of_log_code(static_cast<std::uint16_t>(c)));
   });
   columns.get(1, [&](auto i, auto c) { points.is_edge[i] = static_cast<std::uint8_t>(c); });
+  for (std::size_t k = 0; k < 4; ++k) {
+    columns.get(1,
+                [&](auto i, auto c) { points.borders[i].code[k] = static_cast<std::uint8_t>(c); });
+  }
   for (std::size_t i = 0; i < n; ++i) points.normal[i] = from_octahedral(normal[i]);
   return points;
 }
@@ -318,6 +326,8 @@ PointLight unpacked_light(std::string_view bytes) {
   columns.get(1, [&](auto i, auto c) { light.sky_view[i] = static_cast<float>(c / 255.0); });
   return light;
 }
+
+Vec3 as_stored_normal(Vec3 normal) { return from_octahedral(octahedral(normal)); }
 
 StoredPoints as_stored(const StoredPoints& points) {
   return points.empty() ? points : unpacked_points(packed(points));

@@ -6,6 +6,8 @@
 #include <optional>
 
 #include "core/parallel.h"
+#include "flythrough/point_store.h"
+#include "flythrough/surface_borders.h"
 #include "view/pixel_paths.h"
 
 namespace tenku {
@@ -81,6 +83,7 @@ class FrameGatherer {
     append(part.points.object, all.points.object);
     append(part.points.material, all.points.material);
     append(part.points.is_edge, all.points.is_edge);
+    append(part.points.borders, all.points.borders);
     all.rays += part.rays;
     all.surface_pixels += part.surface_pixels;
     all.glass_pixels += part.glass_pixels;
@@ -168,11 +171,15 @@ class FrameGatherer {
 
   void store(const Surface& s, Vec3 at, bool is_edge, GatheredFrame& made) const {
     made.points.position.push_back(at);
-    made.points.normal.push_back(s.normal);
-    made.points.footprint_m.push_back(static_cast<float>((is_edge ? 0.5 : 1.0) * pixel_m(at)));
+    const double footprint = (is_edge ? 0.5 : 1.0) * pixel_m(at);
+    const Vec3 normal = as_stored_normal(s.normal);
+    made.points.normal.push_back(normal);
+    made.points.footprint_m.push_back(static_cast<float>(footprint));
     made.points.object.push_back(rays_.soup().object[s.triangle]);
     made.points.material.push_back(static_cast<std::uint16_t>(s.material));
     made.points.is_edge.push_back(is_edge ? 1 : 0);
+    made.points.borders.push_back(is_edge ? borders_near(rays_, s.triangle, at, normal, footprint)
+                                          : PointBorders{});
   }
 
   void visit(int x, int y, GatheredFrame& made) const {

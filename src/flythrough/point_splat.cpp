@@ -1,6 +1,7 @@
 #include "flythrough/point_splat.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/parallel.h"
@@ -12,6 +13,7 @@ namespace {
 constexpr double kNearest_m = 1e-4;
 constexpr double kCone = 0.5;    // footprints that the rim of a disc lies behind its middle
 constexpr double kSteep = 16.0;  // footprints in depth that a disc may reach
+constexpr double kSeam = 0.02;   // pixels by which discs overlap across borders
 constexpr int kBands = 16;
 
 }  // namespace
@@ -28,7 +30,7 @@ SplatChunk splat_chunk(const StoredPoints& points) {
     chunk.points.push_back({static_cast<float>(p.x), static_cast<float>(p.y),
                             static_cast<float>(p.z), points.footprint_m[i], static_cast<float>(n.x),
                             static_cast<float>(n.y), static_cast<float>(n.z), points.material[i],
-                            points.is_edge[i]});
+                            points.is_edge[i], points.borders[i]});
     chunk.finest_m = std::min(chunk.finest_m, points.footprint_m[i]);
   }
   return chunk;
@@ -40,6 +42,8 @@ struct SplatBuffer::Disc {
   float nearness, by_x, by_y;
   float least, cone;  // of what a rim may differ; of squared pixels
   std::uint32_t item;
+  int borders = 0;
+  std::array<std::array<float, 3>, 2> border{};  ///< a dx + b dy + c > 0 within, pixels
 };
 
 SplatBuffer::SplatBuffer(const PerspectiveView& view, const SplatRule& rule)
@@ -108,11 +112,39 @@ void SplatBuffer::project(const SplatChunk& chunk, std::uint32_t first,
       continue;
     const double nearness = 1.0 / depth;
     const double step = p.footprint_m * nearness * nearness;
-    discs.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(radius),
-                     static_cast<float>(nearness), static_cast<float>(dot(n, right_) / above),
-                     static_cast<float>(dot(n, down_) / above), static_cast<float>(kSteep * step),
-                     static_cast<float>(kCone * step / (radius * radius)),
-                     first + static_cast<std::uint32_t>(i)});
+    Disc disc{static_cast<float>(x),
+              static_cast<float>(y),
+              static_cast<float>(radius),
+              static_cast<float>(nearness),
+              static_cast<float>(dot(n, right_) / above),
+              static_cast<float>(dot(n, down_) / above),
+              static_cast<float>(kSteep * step),
+              static_cast<float>(kCone * step / (radius * radius)),
+              first + static_cast<std::uint32_t>(i),
+              0,
+              {}};
+    if (p.is_edge != 0) add_borders(p, d, disc);
+    discs.push_back(disc);
+  }
+}
+
+void SplatBuffer::add_borders(const SplatChunk::Point& point, Vec3 from_eye, Disc& disc) const {
+  const Vec3 normal{double{point.nx}, double{point.ny}, double{point.nz}};
+  const TangentFrame frame = tangent_frame(normal);
+  const Vec3 ray = (1.0 / dot(from_eye, camera_.forward())) * from_eye;
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (!point.borders.has(k)) continue;
+    const double angle = point.borders.angle_rad(k);
+    const Vec3 inward = std::cos(angle) * frame.tangent + std::sin(angle) * frame.bitangent;
+    const Vec3 on_line =
+        from_eye - (point.borders.distance_footprints(k) * point.footprint_m) * inward;
+    // The plane of the line and the eye, positive towards the surface.
+    Vec3 plane = cross(on_line, cross(normal, inward));
+    if (dot(plane, inward) < 0.0) plane = -plane;
+    const double a = dot(plane, right_), b = dot(plane, down_), scale = 1.0 / std::hypot(a, b);
+    disc.border[static_cast<std::size_t>(disc.borders++)] = {
+        static_cast<float>(scale * a), static_cast<float>(scale * b),
+        static_cast<float>(scale * dot(plane, ray) + kSeam)};
   }
 }
 
@@ -131,6 +163,12 @@ void SplatBuffer::fill(const Disc& disc, int top, int bottom) {
                     dy = to_y + static_cast<float>(kRayPlaces[s][1]);
         const float off = dx * dx + dy * dy;
         if (off > most) continue;
+        bool is_within = true;
+        for (int k = 0; k < disc.borders; ++k) {
+          const auto& [a, b, c] = disc.border[static_cast<std::size_t>(k)];
+          is_within = is_within && a * dx + b * dy + c > 0.0F;
+        }
+        if (!is_within) continue;
         const float slope = std::clamp(disc.by_x * dx + disc.by_y * dy, -disc.least, disc.least);
         const float nearness = std::max(disc.nearness + slope - disc.cone * off, 1e-9F);
         const std::size_t at = pixel + s;

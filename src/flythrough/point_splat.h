@@ -35,6 +35,7 @@ struct SplatChunk {
     float x, y, z, footprint_m, nx, ny, nz;
     std::uint16_t material;
     std::uint16_t is_edge;
+    PointBorders borders;
   };
   Vec3 origin;
   Extent extent;  ///< of the positions, local frame
@@ -54,7 +55,8 @@ SplatChunk splat_chunk(const StoredPoints& points);
 /// Points drawn as discs against depth.
 ///
 /// Of discs on one surface the nearest centre wins (a shallow cone on each disc), of surfaces the
-/// nearer. Points seen from behind are not drawn. Same bits for any number of threads.
+/// nearer. A disc ends at the borders of its surface. Points seen from behind are not drawn. Same
+/// bits for any number of threads.
 ///
 /// Shape    arrays [row][column][sample] of the view's pixels, each with its four samples at the
 ///          places `kRayPlaces` of the rays of `render_view`; empty before `draw`.
@@ -95,6 +97,7 @@ class SplatBuffer {
  private:
   struct Disc;
   void project(const SplatChunk& chunk, std::uint32_t first, std::vector<Disc>& discs) const;
+  void add_borders(const SplatChunk::Point& point, Vec3 from_eye, Disc& disc) const;
   void fill(const Disc& disc, int top, int bottom);
 
   PerspectiveCamera camera_;

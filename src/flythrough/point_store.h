@@ -184,6 +184,8 @@ class PointStoreWriter {
   std::size_t lightings_ = 0;
 };
 
+/// A unit normal as a store gives it back.
+Vec3 as_stored_normal(Vec3 normal);
 /// Points as a store gives them back: positions, normals and footprints rounded.
 StoredPoints as_stored(const StoredPoints& points);
 PointLight as_stored(const PointLight& light);

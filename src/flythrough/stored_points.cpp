@@ -17,6 +17,7 @@ StoredPoints StoredPoints::of(const std::vector<std::uint32_t>& chosen) const {
     some.object.push_back(object[i]);
     some.material.push_back(material[i]);
     some.is_edge.push_back(is_edge[i]);
+    some.borders.push_back(borders[i]);
   }
   return some;
 }

@@ -1,15 +1,41 @@
 /// Points of a fly-through: where they lie, what they are, and what light they receive.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "core/extent.h"
 #include "core/rgb.h"
+#include "core/units.h"
 #include "core/vec3.h"
 
 namespace tenku {
+
+/// Lines on the surface beyond which a point's disc does not go on: up to two, each by the
+/// direction from it into the disc and its distance from the point.
+///
+/// Shape    line k: code[2 k], the direction's angle about the normal from the tangent of
+///          `tangent_frame(normal)` towards its bitangent, 256 to a turn; code[2 k + 1], 0 for no
+///          line, or 1 + 254 times the distance over `kReach` footprints.
+struct PointBorders {
+  static constexpr double kReach = 1.5;  ///< footprints
+  std::array<std::uint8_t, 4> code{};
+
+  friend bool operator==(const PointBorders&, const PointBorders&) = default;
+  bool has(std::size_t k) const { return code[2 * k + 1] != 0; }
+  double angle_rad(std::size_t k) const { return code[2 * k] * (2.0 * kPi / 256.0); }
+  double distance_footprints(std::size_t k) const { return (code[2 * k + 1] - 1) * kReach / 254.0; }
+  /// @param distance_footprints  in [0, `kReach`]
+  void set(std::size_t k, double angle_rad, double distance_footprints) {
+    const auto turn = static_cast<int>(std::lround(angle_rad * 256.0 / (2.0 * kPi)));
+    code[2 * k] = static_cast<std::uint8_t>(turn & 255);
+    code[2 * k + 1] =
+        static_cast<std::uint8_t>(1 + std::lround(254.0 * distance_footprints / kReach));
+  }
+};
 
 /// Surface points that a camera path sees, as a structure of arrays: all [point].
 ///
@@ -26,6 +52,7 @@ struct StoredPoints {
   std::vector<std::uint16_t> material;  ///< index into `StoreHeader::materials`
   /// 1 within a pixel of where another surface is seen, otherwise 0: such discs must stay small.
   std::vector<std::uint8_t> is_edge;
+  std::vector<PointBorders> borders;
 
   std::size_t size() const { return position.size(); }
   bool empty() const { return position.empty(); }

@@ -26,13 +26,15 @@ int compare(char** argv, int argc) {
   const PointStore store{argv[1]};
   SkyRequest sky;
   sky.model = argv[3];
-  sky.sun = SunInSky{direction_from(Angle::degrees(std::atof(argv[5])),
-                                    Angle::degrees(std::atof(argv[4])))};
+  sky.sun = SunInSky{
+      direction_from(Angle::degrees(std::atof(argv[5])), Angle::degrees(std::atof(argv[4]))),
+      Angle::degrees(0.533 / 2), std::nullopt};
   ReadOptions read;
   if (argc > 10) read.ground = GroundChoice::parse(argv[10]);
   Progress quiet;
-  const LitScene lit(argv[2], read, [&](const auto&) { return make_sky(sky); }, std::nullopt,
-                     GlPlatform::Auto, quiet);
+  const LitScene lit(
+      argv[2], read, [&](const auto&) { return make_sky(sky); }, std::nullopt, GlPlatform::Auto,
+      quiet);
   ViewRequest request;
   request.tolerance_pct = std::atof(argv[6]);
   request.bounces = std::atoi(argv[7]);

@@ -77,6 +77,8 @@ StoredPoints points_of(std::uint64_t seed, std::size_t count) {
     points.object.push_back(static_cast<std::uint32_t>(1e6 * random.uniform()));
     points.material.push_back(static_cast<std::uint16_t>(2 * random.uniform()));
     points.is_edge.push_back(random.uniform() < 0.3 ? 1 : 0);
+    points.borders.emplace_back();
+    if (i % 4 == 0) points.borders.back().set(1, 6 * random.uniform() - 3, 1.5 * random.uniform());
   }
   return points;
 }
@@ -131,6 +133,7 @@ TEST_F(PointStoreFile, GivesBackWhatItWasGivenWithinItsBounds) {
       EXPECT_EQ(got.object[i], want.object[i]);
       EXPECT_EQ(got.material[i], want.material[i]);
       EXPECT_EQ(got.is_edge[i], want.is_edge[i]);
+      EXPECT_EQ(got.borders[i], want.borders[i]);
       expect_near(read.sun_lux[i], light.sun_lux[i]);
       expect_near(read.sky_lux[i], light.sky_lux[i]);
       expect_near(read.reflected_lux[i].r, light.reflected_lux[i].r);
