@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <chrono>
 #include <nlohmann/json.hpp>
 
@@ -12,6 +13,7 @@
 #include "core/version.h"
 #include "flythrough/fly_through.h"
 #include "flythrough/path_checks.h"
+#include "flythrough/relight.h"
 #include "flythrough/store_lighting.h"
 #include "output/sha256.h"
 #include "study/camera_path_reader.h"
@@ -22,9 +24,17 @@ namespace {
 
 struct FlyThroughOptions {
   LitSceneOptions lit;
-  std::string path;
+  std::string path, relight;
   bool resume = false;
 };
+
+/// What must be as it was for a store to fit the scene.
+std::vector<std::array<std::string, 2>> scene_settings(const LitSceneOptions& how) {
+  const std::string& materials = how.scene.materials;
+  return {{"materials_sha256", materials.empty() ? "" : sha256_of_file(materials)},
+          {"ground", how.scene.ground},
+          {"building_lod", how.scene.building_lod}};
+}
 
 StoreHeader header_of(const FlyThroughOptions& options, const LitScene& lit, CameraPath path,
                       const CommonOptions& common) {
@@ -39,32 +49,37 @@ StoreHeader header_of(const FlyThroughOptions& options, const LitScene& lit, Cam
   }
   header.path = std::move(path);
   const LitSceneOptions& how = options.lit;
-  const std::string materials =
-      how.scene.materials.empty() ? "" : sha256_of_file(how.scene.materials);
-  header.settings = {{"time", how.site.time},
-                     {"sky", lit.sky().description},
-                     {"horizontal_lux", fmt::format("{}", lit.source().unobstructed_lux())},
-                     {"materials_sha256", materials},
-                     {"ground", how.scene.ground},
-                     {"building_lod", how.scene.building_lod},
-                     {"tolerance_pct", fmt::format("{}", how.tolerance_pct)},
-                     {"bounces", fmt::format("{}", how.bounces)},
-                     {"engine", how.engine},
-                     {"lod", how.lod},
-                     {"elements", fmt::format("{}", lit.source().element_count())},
-                     {"seed", fmt::format("{}", common.seed)}};
+  header.settings = scene_settings(how);
+  header.settings.insert(header.settings.end(),
+                         {{"time", how.site.time},
+                          {"sky", lit.sky().description},
+                          {"horizontal_lux", fmt::format("{}", lit.source().unobstructed_lux())},
+                          {"tolerance_pct", fmt::format("{}", how.tolerance_pct)},
+                          {"bounces", fmt::format("{}", how.bounces)},
+                          {"engine", how.engine},
+                          {"lod", how.lod},
+                          {"elements", fmt::format("{}", lit.source().element_count())},
+                          {"seed", fmt::format("{}", common.seed)}});
   return header;
 }
 
 void check_options(const FlyThroughOptions& options) {
-  if (options.path.empty()) throw InputError("--path is needed: the file of the camera path");
+  if (options.relight.empty()) {
+    if (options.lit.scene.scene.empty()) throw InputError("SCENE is needed");
+    if (options.path.empty()) throw InputError("--path is needed: the file of the camera path");
+    if (options.lit.out.empty()) throw InputError("--out is needed: the store to write");
+    if (options.lit.out == "-") throw InputError("--out -: a store is a file");
+    check_can_write(options.lit.out);
+  } else if (!options.path.empty() || !options.lit.out.empty() || options.resume) {
+    throw InputError(
+        "--relight adds light to its store: --path, --out and --resume do not go with it");
+  }
   if (!(options.lit.tolerance_pct > 0.0 && options.lit.tolerance_pct <= 100.0)) {
     throw InputError(fmt::format("--tolerance {}: not in (0, 100]", options.lit.tolerance_pct));
   }
   if (!(options.lit.bounces >= 0 && options.lit.bounces <= 100)) {
     throw InputError(fmt::format("--bounces {}: not in 0..100", options.lit.bounces));
   }
-  check_can_write(options.lit.out);
 }
 
 void tell(const CommonOptions& options, const LitScene& lit, const FlyThroughResult& result,
@@ -121,16 +136,53 @@ int fly(const FlyThroughOptions& options, const CommandContext& context) {
   return kDone;
 }
 
+/// Adds another sun and sky to a store.
+int relight_store(FlyThroughOptions options, const CommandContext& context) {
+  check_options(options);
+  const auto start = std::chrono::steady_clock::now();
+  {
+    const PointStore store(options.relight);
+    if (options.lit.scene.scene.empty()) options.lit.scene.scene = store.header().scene;
+    for (const auto& [key, value] : scene_settings(options.lit)) {
+      if (store.header().setting(key) == value) continue;
+      throw InputError(fmt::format("{}: {} was '{}', and now is '{}'", options.relight, key,
+                                   store.header().setting(key), value));
+    }
+  }
+  const LitScene lit = load_lit_scene(options.lit, context.progress);
+  const RelightResult result =
+      relight(options.relight, sha256_of_file(options.lit.scene.scene),
+              lighting_of(lit.sky(), lit.source(), options.lit.site.time),
+              {options.lit.tolerance_pct, options.lit.bounces, context.options.seed}, lit.engines(),
+              lit.source(), context.progress);
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+  say_findings(context.options, lit.sky().diagnostics);
+  say(context.options, fmt::format("{} points in {} chunks have lighting {}", result.points,
+                                   result.chunks, result.lighting));
+  if (context.options.json) {
+    const nlohmann::ordered_json json{{"seconds", time.count()}, {"lighting", result.lighting},
+                                      {"points", result.points}, {"chunks", result.chunks},
+                                      {"bytes", result.bytes},   {"sky", lit.sky().description}};
+    fmt::print("{}\n", json.dump(2));
+  }
+  return kDone;
+}
+
 }  // namespace
 
 CommandBody make_flythrough_command(CLI::App& app) {
   const auto options = std::make_shared<FlyThroughOptions>();  // outlives this call
   add_lit_scene_options(app, options->lit);
-  add_out_option(app, options->lit);
+  app.get_option("SCENE")->required(false);  // a store that is relit knows its own
+  app.add_option("--out", options->lit.out, "store to write (.tkpts)");
   app.add_option("--path", options->path, "camera path (TOML): keys with time, eye and target");
   app.add_flag("--resume", options->resume,
                "go on with OUT.part, which a run that was cut off left behind");
-  return [options](const CommandContext& context) { return fly(*options, context); };
+  app.add_option("--relight", options->relight,
+                 "add the light of another --time or sky to this store, in place of a new one");
+  return [options](const CommandContext& context) {
+    return options->relight.empty() ? fly(*options, context) : relight_store(*options, context);
+  };
 }
 
 }  // namespace tenku

@@ -112,14 +112,14 @@ class FlyThrough {
     for (std::size_t c = 0; c < kept.chunks().size(); ++c) is_lit_.push_back(kept.has_light(c, 0));
   }
 
-  /// By the points of the first frame, the middle one and the last.
+  /// By the points of the middle frame, or of another where that has none.
   PointLightPlan make_plan() {
     StoredPoints points;
     const std::size_t n = header_.path.size();
-    for (const std::size_t f : {std::size_t{0}, n / 2, n - 1}) {
-      const GatheredFrame some =
-          gather_frame(header_.path.view(f), request_.rule, engines_.rays(), {}, progress_);
-      append(some.points, points);
+    for (const std::size_t f : {n / 2, std::size_t{0}, n - 1}) {
+      if (!points.empty()) break;
+      points =
+          gather_frame(header_.path.view(f), request_.rule, engines_.rays(), {}, progress_).points;
     }
     return plan_point_light(points, engines_, source_, request_.light, request_.method, progress_);
   }

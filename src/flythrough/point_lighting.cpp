@@ -23,7 +23,9 @@ constexpr double kFloorShare = 0.01;
 constexpr int kFirstSlices = 8;
 constexpr double kBlock = 8.0;       // footprints of a cell that shares reflected light
 constexpr double kFarBlock_m = 5.0;  // width of a cell beyond which surfaces share
-constexpr double kNear = 1.5;        // footprints within which skylight is averaged
+// Footprints of a cell that shares how another sun and sky change skylight, and reflected light.
+constexpr double kSkyBlock = 16.0, kReflectedBlock = 48.0;
+constexpr double kNear = 1.5;  // footprints within which skylight is averaged
 
 /// Points that need about the same exactness, from the most to the least.
 constexpr std::array<double, 3> kClassPixels{0.75, 0.375, 0.0};
@@ -116,11 +118,11 @@ void smooth_sky(const StoredPoints& points, SensorIlluminance& light) {
 }
 
 /// Cells of two octaves of footprints, so that fine points on edges share with those beside them.
-SharingLayout sharing_by_footprint(const StoredPoints& points) {
+SharingLayout sharing_by_footprint(const StoredPoints& points, double block) {
   SharingLayout layout;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const int level = static_cast<int>(std::floor(0.5 * (octave(points.footprint_m[i]) + 1)));
-    const double side = kBlock * std::exp2(2 * level);
+    const double side = block * std::exp2(2 * level);
     layout.place.push_back((1.0 / side) * points.position[i]);
     const Vec3 n = points.normal[i];
     std::uint64_t surface = facing(n);
@@ -145,6 +147,16 @@ class DirectLight {
   SensorIlluminance light(const Sensors& sensors, double looser, Progress& progress) const {
     return plan_.is_shared ? by_shared(sensors, looser, progress)
                            : by_slices(sensors, looser, progress);
+  }
+
+  /// Sunlight alone.
+  std::vector<double> sun_lux(const Sensors& sensors) const {
+    const double lux = source_.sun.normal_illuminance.value();
+    if (!(lux > 0.0)) return std::vector<double>(sensors.size(), 0.0);
+    constexpr std::size_t kUsual = 8;
+    const std::size_t directions = plan_.is_shared ? plan_.sun_directions : kUsual;
+    return shared_sun_lux(engines_.rays(), lifted(sensors, engines_.rays().lift_m()), source_.sun,
+                          static_cast<int>(std::max<std::size_t>(directions, 1)));
   }
 
  private:
@@ -227,6 +239,62 @@ PointLight stored(const SensorIlluminance& values) {
   return light;
 }
 
+double ratio_of(double now, double then) { return then > 0.0 ? now / then : 0.0; }
+
+/// Finds for a few points how another sun and sky change their light, and tells it to all.
+class LightChange {
+ public:
+  LightChange(const StoredPoints& points, const PointLight& before, const Engines& engines)
+      : points_(points), sensors_(sensors_of(points)), before_(before), engines_(engines) {}
+
+  /// Skylight of all points.
+  std::vector<double> sky_lux(const DirectLight& by, Progress& progress) const {
+    const ReflectedSharing sharing(sensors_, sharing_by_footprint(points_, kSkyBlock),
+                                   engines_.rays());
+    const auto& chosen = sharing.calculated();
+    const SensorIlluminance now = by.light(sensors_of(sensors_, chosen), 1.0, progress);
+    SensorIlluminance few(chosen.size()), all(points_.size());
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+      few.set_reflected(k, Rgb::grey(ratio_of(now.sky_lux[k], before_.sky_lux[chosen[k]])));
+    }
+    sharing.spread(few, all);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      all.sky_lux[i] = before_.sky_lux[i] * all.reflected_lux[i];
+    return std::move(all.sky_lux);
+  }
+
+  /// Adds reflected light to what has its direct light.
+  void add_reflected(const DaylightSource& source, IlluminanceOptions how,
+                     SensorIlluminance& values, Progress& progress) const {
+    const ReflectedSharing sharing(sensors_, sharing_by_footprint(points_, kReflectedBlock),
+                                   engines_.rays());
+    const auto& chosen = sharing.calculated();
+    IlluminanceOptions::KnownDirect known;
+    for (const std::uint32_t i : chosen) {
+      known.lux.push_back(values.sun_lux[i] + values.sky_lux[i]);
+      known.sky_view.push_back(values.sky_view[i]);
+    }
+    how.known_direct = &known;
+    const SensorIlluminance now =
+        illuminate(sensors_of(sensors_, chosen), engines_.rays(), source, how, progress).values;
+    SensorIlluminance few(chosen.size()), all(points_.size());
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+      const Rgb a = now.reflected_rgb[k], b = before_.reflected_lux[chosen[k]];
+      few.set_reflected(k, {ratio_of(a.r, b.r), ratio_of(a.g, b.g), ratio_of(a.b, b.b)});
+    }
+    sharing.spread(few, all);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values.set_reflected(i, before_.reflected_lux[i] * all.reflected_rgb[i]);
+    }
+  }
+
+ private:
+  const StoredPoints& points_;
+  Sensors sensors_;
+  const PointLight& before_;
+  const Engines& engines_;
+};
+
 }  // namespace
 
 std::string text_of(const PointLightPlan& plan) {
@@ -285,10 +353,28 @@ PointLight light_points(const StoredPoints& points, const std::vector<double>& p
     how.bounces = options.bounces;
     const Sensors sensors = sensors_of(points);
     light.is_missed.resize(points.size());
-    const ReflectedSharing sharing(sensors, sharing_by_footprint(points), engines.rays());
+    const ReflectedSharing sharing(sensors, sharing_by_footprint(points, kBlock), engines.rays());
     add_shared_reflection(sharing, engines.rays(), source, how, progress, light);
   }
   return stored(light.values);
+}
+
+PointLight relight_points(const StoredPoints& points, const PointLight& before,
+                          const Engines& engines, const DaylightSource& source,
+                          const PointLightOptions& options, const PointLightPlan& plan,
+                          Progress& progress) {
+  const DirectLight by(engines, source, options, plan);
+  const LightChange change(points, before, engines);
+  SensorIlluminance values(points.size());
+  values.sun_lux = by.sun_lux(sensors_of(points));
+  values.sky_lux = change.sky_lux(by, progress);
+  values.sky_view.assign(before.sky_view.begin(), before.sky_view.end());
+  if (options.bounces > 0) {
+    IlluminanceOptions how = options_of(options, 1.0);
+    how.bounces = options.bounces;
+    change.add_reflected(source, how, values, progress);
+  }
+  return stored(values);
 }
 
 }  // namespace tenku

@@ -58,4 +58,22 @@ PointLight light_points(const StoredPoints& points, const std::vector<double>& p
                         const PointLightOptions& options, const PointLightPlan& plan,
                         Progress& progress);
 
+/// Light of points under another sun and sky, from what they received under one.
+///
+/// The sun is asked for at each point. Skylight is found for one point in a cell of some sixteen
+/// footprints, and its ratio to what that received before goes, blended over the cells around, to
+/// the others: what hides the sky, which varies from point to point, is in the light before;
+/// what the new sky changes varies slowly. Reflected light likewise, in cells of some 48
+/// footprints.
+///
+/// Error    of skylight: where a cell holds points that see different parts of the sky. The sum
+/// over
+///          a cell is not affected.
+/// @param before  their light under the other sky
+/// @throws as `light_points`
+PointLight relight_points(const StoredPoints& points, const PointLight& before,
+                          const Engines& engines, const DaylightSource& source,
+                          const PointLightOptions& options, const PointLightPlan& plan,
+                          Progress& progress);
+
 }  // namespace tenku

@@ -22,7 +22,7 @@ struct SplatRule {
   double least_pixels = 0.6;
   /// Points whose footprint would be wider than this are not drawn: finer ones were gathered for
   /// such views.
-  double coarsest_pixels = 1.6, coarsest_edge_pixels = 0.8;
+  double coarsest_pixels = 1.4, coarsest_edge_pixels = 0.7;
 
   double coarsest(bool is_edge) const { return is_edge ? coarsest_edge_pixels : coarsest_pixels; }
 };
