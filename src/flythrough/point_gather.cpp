@@ -32,7 +32,7 @@ class FrameGatherer {
  public:
   FrameGatherer(const PerspectiveView& view, const SplatRule& rule, const RayVisibility& rays,
                 std::span<const SplatChunk* const> stored)
-      : camera_(view), rays_(rays), stored_(stored), buffer_(view, rule) {
+      : camera_(view), rays_(rays), stored_(stored), buffer_(view, rule.stricter()) {
     buffer_.draw(stored);
   }
 
@@ -40,11 +40,11 @@ class FrameGatherer {
     const auto height = static_cast<std::size_t>(camera_.height());
     trace_middles(progress);
     std::vector<GatheredFrame> parts((height + kRows - 1) / kRows);
-    parallel_for(height, kRows, [&](IndexRange range) {
+    parallel_for(parts.size(), 1, [&](IndexRange range) {
       progress.stop_if_cancelled();
-      for (std::size_t y = range.begin; y < range.end; ++y) {
-        for (int x = 0; x < camera_.width(); ++x) {
-          visit(x, static_cast<int>(y), parts[range.begin / kRows]);
+      for (std::size_t part = range.begin; part < range.end; ++part) {
+        for (std::size_t y = part * kRows; y < std::min(height, (part + 1) * kRows); ++y) {
+          for (int x = 0; x < camera_.width(); ++x) visit(x, static_cast<int>(y), parts[part]);
         }
       }
     });

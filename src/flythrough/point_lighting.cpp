@@ -24,7 +24,7 @@ constexpr int kFirstSlices = 8;
 constexpr double kBlock = 8.0;       // footprints of a cell that shares reflected light
 constexpr double kFarBlock_m = 5.0;  // width of a cell beyond which surfaces share
 // Footprints of a cell that shares how another sun and sky change skylight, and reflected light.
-constexpr double kSkyBlock = 16.0, kReflectedBlock = 48.0;
+constexpr double kSkyBlock = 8.0, kReflectedBlock = 24.0;
 constexpr double kNear = 1.5;  // footprints within which skylight is averaged
 
 /// Points that need about the same exactness, from the most to the least.

@@ -60,7 +60,7 @@ PointLight light_points(const StoredPoints& points, const std::vector<double>& p
 
 /// Light of points under another sun and sky, from what they received under one.
 ///
-/// The sun is asked for at each point. Skylight is found for one point in a cell of some sixteen
+/// The sun is asked for at each point. Skylight is found for one point in a cell of some eight
 /// footprints, and its ratio to what that received before goes, blended over the cells around, to
 /// the others: what hides the sky, which varies from point to point, is in the light before;
 /// what the new sky changes varies slowly. Reflected light likewise, in cells of some 48

@@ -13,7 +13,6 @@ namespace {
 constexpr double kNearest_m = 1e-4;
 constexpr double kCone = 0.5;    // footprints that the rim of a disc lies behind its middle
 constexpr double kSteep = 16.0;  // footprints in depth that a disc may reach
-constexpr double kSeam = 0.02;   // pixels by which discs overlap across borders
 constexpr int kBands = 16;
 
 }  // namespace
@@ -144,7 +143,7 @@ void SplatBuffer::add_borders(const SplatChunk::Point& point, Vec3 from_eye, Dis
     const double a = dot(plane, right_), b = dot(plane, down_), scale = 1.0 / std::hypot(a, b);
     disc.border[static_cast<std::size_t>(disc.borders++)] = {
         static_cast<float>(scale * a), static_cast<float>(scale * b),
-        static_cast<float>(scale * dot(plane, ray) + kSeam)};
+        static_cast<float>(scale * dot(plane, ray) + rule_.seam_pixels)};
   }
 }
 

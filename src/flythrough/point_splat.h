@@ -24,6 +24,14 @@ struct SplatRule {
   /// such views.
   double coarsest_pixels = 1.4, coarsest_edge_pixels = 0.7;
 
+  double seam_pixels = 0.02;  ///< by which discs reach over the borders of their surfaces
+
+  /// The rule of gathering: a little stricter, so that what is covered stays so when positions and
+  /// footprints are rounded.
+  SplatRule stricter() const {
+    return {0.95 * overlap, 0.95 * least_pixels, 0.998 * coarsest_pixels,
+            0.998 * coarsest_edge_pixels, 0.5 * seam_pixels};
+  }
   double coarsest(bool is_edge) const { return is_edge ? coarsest_edge_pixels : coarsest_pixels; }
 };
 
