@@ -113,8 +113,9 @@ TEST_F(FlyThroughProgram, APathThroughAWallIsToldWithItsObject) {
              "[[key]]\ntime_s = 2\neye = [0, 0.1, 0.3]\ntarget = [-9, 0, 0]\n");
   const auto run = fly(" --out f.tkpts --json");
   ASSERT_EQ(run.exit_code, 0) << run.err;
+  const json summary = json::parse(run.out);
   json found;
-  for (const json& f : json::parse(run.out)["findings"]) {
+  for (const json& f : summary["findings"]) {
     if (f["code"] == "path_through_wall") found = f;
   }
   ASSERT_FALSE(found.is_null()) << run.out;

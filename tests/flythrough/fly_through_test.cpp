@@ -301,7 +301,10 @@ TEST_F(FlyThroughFile, AnotherHourIsThatOfARunOfItsOwn) {
   EXPECT_TRUE(store.is_complete());
   double truth = 0.0, off = 0.0, sun_off = 0.0;
   for (std::size_t c = 0; c < store.chunks().size(); ++c) {
-    const StoredPoints points = store.points(c);
+    StoredPoints points = store.points(c);
+    for (std::size_t i = 0; i < points.size(); ++i) {  // rounding may have put it below
+      points.position[i] = points.position[i] + 0.05 * points.footprint_m[i] * points.normal[i];
+    }
     const PointLight got = store.light(c, 1);
     const PointLight want = light_points(points, std::vector<double>(points.size(), 1.0),
                                          evening.engines(), evening.source(), request.light,
