@@ -148,6 +148,13 @@ RayVisibility::RayVisibility(const TriangleSoup& soup, const std::vector<Materia
   device_->opaque_scene = build_scene(device_->device.get(), soup, device_->opaque);
   device_->glass_scene = build_scene(device_->device.get(), soup, device_->glass);
   if (!has_glass()) few_edges_ = few_sharp_edges(soup, adjacency_, kFewEdges);
+  std::vector<bool> is_opaque(soup.size(), false);
+  for (const std::uint32_t t : device_->opaque) is_opaque[t] = true;
+  const auto distance_below = [this](Vec3 from) {
+    const auto hit = first_hit(from, -1.0 * kZenith);
+    return hit ? double{hit->distance_m} : std::numeric_limits<double>::infinity();
+  };
+  floating_parts_ = FloatingParts(soup, adjacency_, is_opaque, distance_below);
 }
 
 RayVisibility::~RayVisibility() = default;

@@ -11,6 +11,7 @@
 #include "core/vec3.h"
 #include "scene/material.h"
 #include "scene/triangle_soup.h"
+#include "visibility/floating_parts.h"
 #include "visibility/mesh_adjacency.h"
 #include "visibility/sharp_edge.h"
 #include "visibility/visibility.h"
@@ -61,6 +62,8 @@ class RayVisibility : public Visibility {
   const TriangleSoup& soup() const { return soup_; }
   const std::vector<Material>& materials() const { return materials_; }
   const MeshAdjacency& adjacency() const { return adjacency_; }
+  /// Opaque parts below which sky may show.
+  const FloatingParts& floating_parts() const { return floating_parts_; }
   /// All edges that can bound what is seen; none where they are many, or where there is glass.
   std::span<const SharpEdge> few_edges() const { return few_edges_; }
   Vec3 normal(std::uint32_t triangle) const;
@@ -77,6 +80,7 @@ class RayVisibility : public Visibility {
   MeshAdjacency adjacency_;
   double lift_m_;
   std::vector<SharpEdge> few_edges_;
+  FloatingParts floating_parts_;
   std::unique_ptr<Device> device_;
 };
 
