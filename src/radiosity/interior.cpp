@@ -89,6 +89,13 @@ std::vector<std::uint32_t> facings(const Sensors& sensors) {
   return of_sensor;
 }
 
+/// Of twice as many samples each: their error falls with the number to the power -3/4.
+std::uint8_t steps_finer(double interval_lux, double allowed_lux) {
+  if (!(interval_lux > allowed_lux)) return 0;
+  return static_cast<std::uint8_t>(
+      std::clamp(std::ceil(std::log2(interval_lux / allowed_lux) * 4.0 / 3.0), 1.0, 8.0));
+}
+
 bool is_any(Rgb c) { return c.r > 0.0 || c.g > 0.0 || c.b > 0.0; }
 
 /// Whole planes on which anything is so: values are wanted up to their edges.
@@ -268,7 +275,7 @@ std::vector<std::uint8_t> Interior::rough_points(const InteriorLight& light) con
   const ErrorBudget budget(mesh_tolerance_pct(options_), kDimShare * sum / std::max(lit, 1.0));
   std::vector<std::uint8_t> rough(points_.size());
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    rough[i] = interval_lux(corners.variance[i], 0.0) > budget.allowed_lux(lux(i));
+    rough[i] = steps_finer(interval_lux(corners.variance[i], 0.0), budget.allowed_lux(lux(i)));
   }
   return rough;
 }
@@ -331,6 +338,7 @@ void Interior::add_reflected(InteriorSensors& sensors, const InteriorLight& ligh
   const CornerLight& corners = light.corners;
   const std::vector<Rgb> sent =
       reflected_part(scaled(surfaces_, light.lamp_scale), corners.radiosity);
+  const std::vector<MeshDoubt> doubts = mesh_doubts(corners);
   std::vector<PointGather::Looks> looks(values.size());
   std::vector<std::array<double, PointGather::kLooks>> mesh_part(values.size());
   std::vector<double> variance;
@@ -346,7 +354,7 @@ void Interior::add_reflected(InteriorSensors& sensors, const InteriorLight& ligh
       sum = light.lamp_scale * sum;
       for (const FormFactor& f : row) sum = sum + f.value * sent[f.side];
       looks[i][look] = sum;
-      mesh_part[i][look] = mesh_error_lux(row, corners.spread, corners.uneven);
+      mesh_part[i][look] = mesh_error_lux(row, doubts);
     });
     variance = pooled_variance(looks, facings(sensors.gather->points()));
     if (floor_lux == 0.0) {
@@ -357,7 +365,7 @@ void Interior::add_reflected(InteriorSensors& sensors, const InteriorLight& ligh
     const ErrorBudget budget(0.5 * options_.tolerance_pct, floor_lux);
     for (std::size_t i = 0; i < values.size(); ++i) {
       const double lux = values.sun_lux[i] + values.sky_lux[i] + luminance_of(mean_of(looks[i]));
-      rough[i] = interval_lux(variance[i], 0.0) > budget.allowed_lux(lux);
+      rough[i] = steps_finer(interval_lux(variance[i], 0.0), budget.allowed_lux(lux));
     }
   } while (sensors.gather->look_finer(rough));
   for (std::size_t i = 0; i < values.size(); ++i) {

@@ -116,7 +116,7 @@ class Interior {
   std::vector<std::uint8_t> lit_points(const SideRadiosity& sides,
                                        const DaylightOnSides& direct) const;
   const LampsOnMesh& lamps_on(std::span<const std::uint8_t> is_lit);
-  /// Corners whose form factors are less exact than the tolerance.
+  /// By how many steps corners have to look more finely to be within the tolerance [point].
   std::vector<std::uint8_t> rough_points(const InteriorLight& light) const;
   void tell_leaks(InteriorLight& light);
   void tell_refused(std::vector<Finding>& findings) const;

@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "core/parallel.h"
+#include "scene/soup_triangle.h"
 #include "view/pixel_paths.h"
 #include "view/pixel_sharing.h"
 #include "view/shading_points.h"
@@ -90,12 +91,10 @@ SeenPolygons seen_polygons(const ShadingPoints& points, const PerspectiveCamera&
                                                static_cast<std::uint32_t>(seen.normal.size()));
     seen.of_sensor.push_back(found->second);
     if (!is_new) continue;
-    const auto& [a, b, c] = soup.triangles[t];
-    const Vec3 pa = soup.vertices[a], pb = soup.vertices[b], pc = soup.vertices[c];
-    const Vec3 to_eye = camera.eye() - (1.0 / 3.0) * (pa + pb + pc);
-    const double area = 0.5 * length(cross(pb - pa, pc - pa)), away = length(to_eye);
+    const Vec3 to_eye = camera.eye() - middle_of(soup, t);
+    const double away = length(to_eye);
     seen.normal.push_back(normal);
-    seen.pixels.push_back(area * std::abs(dot(normal, to_eye)) / (away * away * away) /
+    seen.pixels.push_back(area_m2(soup, t) * std::abs(dot(normal, to_eye)) / (away * away * away) /
                           (pixel * pixel));
   }
   return seen;

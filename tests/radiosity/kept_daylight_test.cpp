@@ -31,6 +31,12 @@ Sensors sensors_in_room() {
   return sensors;
 }
 
+DaylightSource source_with_model(const SkyModel& sky) {
+  DaylightSource source = source_of(sky);
+  source.model = &sky;
+  return source;
+}
+
 IlluminanceResult light_of(KeptDaylight& kept, const Sensors& sensors, const Engines& engines,
                            const DaylightSource& source) {
   Progress quiet;
@@ -50,10 +56,10 @@ void expect_as_alone(bool has_sun) {
   const Engines engines(scene.soup, scene.materials);
   const Sensors sensors = sensors_in_room();
   const auto overcast = numbered_sky(16, 0.0, 0.0), clear = numbered_sky(12, 40.0, 160.0);
-  DaylightSource second = source_of(*clear);
+  DaylightSource second = source_with_model(*clear);
   if (has_sun) set_sun(second, 40.0, 160.0);
   KeptDaylight kept(true);
-  light_of(kept, sensors, engines, source_of(*overcast));
+  light_of(kept, sensors, engines, source_with_model(*overcast));
   const IlluminanceResult found = light_of(kept, sensors, engines, second);
   EXPECT_LT(kept.found_anew(), sensors.size() / 4);
   const IlluminanceResult alone = illuminate(scene, sensors, second, direct_options(0.25, 7));
@@ -82,8 +88,8 @@ TEST(KeptDaylight, OfTheSameSkyTwiceAsBrightIsTwiceAsMuch) {
   const Sensors sensors = sensors_in_room();
   const CieOvercastSky dim(Luminance(3000.0)), bright(Luminance(6000.0));
   KeptDaylight kept(true);
-  const auto one = light_of(kept, sensors, engines, source_of(dim));
-  const auto two = light_of(kept, sensors, engines, source_of(bright));
+  const auto one = light_of(kept, sensors, engines, source_with_model(dim));
+  const auto two = light_of(kept, sensors, engines, source_with_model(bright));
   EXPECT_EQ(kept.found_anew(), 0U);
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     EXPECT_NEAR(two.values.sky_lux[i], 2.0 * one.values.sky_lux[i], 1e-5 * one.values.sky_lux[i]);
