@@ -8,6 +8,8 @@
 #include <unordered_map>
 
 #include "core/parallel.h"
+#include "illuminance/error_budget.h"
+#include "illuminance/lamp_light.h"
 #include "scene/soup_triangle.h"
 #include "view/pixel_paths.h"
 #include "view/pixel_sharing.h"
@@ -60,6 +62,14 @@ IlluminanceOptions options_of(const ViewRequest& request) {
   options.first_slices = 8;    // averaged with the pixels around
   options.seed = request.seed;
   return options;
+}
+
+/// A pixel's standard error is held to the tolerance; darker than a hundredth of the mean is black.
+ErrorBudget lamp_budget(const ViewRequest& request, const SensorIlluminance& light) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < light.size(); ++i) sum += light.total_lux(i);
+  return {std::min(100.0, ErrorBudget::kErrorsInTolerance * request.tolerance_pct),
+          0.01 * sum / static_cast<double>(light.size())};
 }
 
 /// Light between surfaces by the finder of the request: what varies slowly is shared, light of
@@ -209,10 +219,13 @@ RenderedView render_view(const ViewRequest& request, const Engines& engines,
   } else if (request.bounces > 0 && points.sensors.size() > 0) {
     IlluminanceOptions options = options_of(request);
     options.bounces = request.bounces;
+    options.lamps_apart = true;
     // Some twenty representatives are blended in a pixel.
     const ReflectedSharing sharing(points.sensors, sharing_by_pixels(points, work.camera),
                                    engines.rays());
     add_shared_reflection(sharing, engines.rays(), source, options, progress, light);
+    light.rays += add_lamp_light(points.sensors, engines.rays(), lamp_budget(request, light.values),
+                                 request.seed, progress, light.values);
   }
   RenderedView result;
   result.luminance = Image(work.camera.width(), work.camera.height());
@@ -239,6 +252,7 @@ ViewPlan plan_view(const ViewRequest& request, const Engines& engines, const Day
   }
   if (request.bounces == 0 || work.points.sensors.size() == 0) return plan;
   options.bounces = request.bounces;
+  options.lamps_apart = true;
   const ReflectedSharing sharing(work.points.sensors, sharing_by_pixels(work.points, work.camera),
                                  engines.rays());
   plan.reflection_s = predicted_reflection_s(sensors_of(work.points.sensors, sharing.calculated()),
