@@ -77,6 +77,11 @@ class CornerSolver {
         light_.open.push_back(open_corners(corner, gathered_));
       }
     }
+    if (steady_.empty()) {
+      for (std::size_t s = 0; s < light_.radiosity.size(); ++s) {
+        steady_.push_back(steady_mean_lux(s));
+      }
+    }
     for (std::size_t s = 0; s < light_.radiosity.size(); ++s) {
       if (is_lit_[problem_.points.corner[s][0]] == 0) continue;
       const Rgb now = surfaces.emission_lm_m2[s / 2] + surfaces.reflectance[s / 2] * mean_lux(s);
@@ -121,14 +126,17 @@ class CornerSolver {
   }
 
   Rgb mean_lux(std::size_t side) const {
+    return steady_[side] + mean_of_open(side, [&](std::uint32_t i) { return gathered_[i]; });
+  }
+
+  /// What no sweep changes of the mean light of a side.
+  Rgb steady_mean_lux(std::size_t side) const {
     const DaylightOnSides& daylight = problem_.daylight;
     const Rgb at_corners = mean_of_open(side, [&](std::uint32_t i) { return steady(i); });
     const Rgb in_middle = Rgb::grey(daylight.middle_lux[side]) + middle_of_lamps(side);
     const bool is_hidden = light_.open[side] != kAllOpen && !(lum(in_middle) > 0.0);
-    return mean_of_open(side, [&](std::uint32_t i) { return gathered_[i]; }) +
-           (is_hidden || problem_.lamps.has_middle[side] == 0
-                ? at_corners
-                : 0.25 * at_corners + 0.75 * in_middle);
+    return is_hidden || problem_.lamps.has_middle[side] == 0 ? at_corners
+                                                             : 0.25 * at_corners + 0.75 * in_middle;
   }
 
   /// Light at a corner that no sweep changes.
@@ -175,15 +183,6 @@ class CornerSolver {
     for (std::size_t i = 0; i < points.size(); ++i) {
       light_.variance[i] += lamp_scale * lamp_scale * lamps.corner[i].variance;
     }
-    light_.mesh_lux.assign(points.size(), 0.0);
-    std::vector<std::array<double, PointGather::kLooks>> mesh_part(points.size());
-    const std::vector<MeshDoubt> doubts = mesh_doubts(light_);
-    gather_.for_rows(is_lit_, [&](std::size_t i, std::size_t look, const FormFactorRow& row) {
-      mesh_part[i][look] = mesh_error_lux(row, doubts);
-    });
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      light_.mesh_lux[i] = 0.5 * (mesh_part[i][0] + mesh_part[i][1]);
-    }
   }
 
   const CornerProblem& problem_;
@@ -192,6 +191,7 @@ class CornerSolver {
   CornerLight light_;
   std::vector<PointGather::Looks> looks_;  ///< [point]
   std::vector<Rgb> gathered_;              ///< [point], by rows
+  std::vector<Rgb> steady_;                ///< [element side], mean that no sweep changes, lux
   std::vector<Rgb> change_;  ///< [element side], of the sweep before; empty: begin anew
 };
 
@@ -264,6 +264,19 @@ CornerLight solve_at_corners(const CornerProblem& problem, const PointGather& ga
                              CornerLight start, std::span<const std::uint8_t> is_lit,
                              Progress& progress) {
   return CornerSolver(problem, gather, std::move(start), is_lit).solve(progress);
+}
+
+std::vector<double> mesh_errors_lux(const CornerLight& light, const PointGather& gather,
+                                    std::span<const std::uint8_t> is_lit) {
+  std::vector<std::array<double, PointGather::kLooks>> of_look(is_lit.size());
+  const std::vector<MeshDoubt> doubts = mesh_doubts(light);
+  gather.for_rows(is_lit, [&](std::size_t i, std::size_t look, const FormFactorRow& row) {
+    of_look[i][look] = mesh_error_lux(row, doubts);
+  });
+  std::vector<double> errors;
+  errors.reserve(of_look.size());
+  for (const auto& [one, other] : of_look) errors.push_back(0.5 * (one + other));
+  return errors;
 }
 
 std::vector<MeshDoubt> mesh_doubts(const CornerLight& light) {

@@ -39,15 +39,15 @@ struct CornerProblem {
   const LampsOnMesh& lamps;
   double lamp_scale;  ///< of what surfaces emit: `surfaces` have it in them, `lamps` have not
   const DaylightOnSides& daylight;
-  double enough_pct;  ///< of the light in dim places: what sweeps may leave
+  double enough_pct;  ///< of the light in dim places: what sweeps may leave; infinite: one sweep
 };
 
 /// Light at corners and what sides send by it.
 struct CornerLight {
-  std::vector<Rgb> lux;            ///< [point], all but daylight straight from sun and sky
-  std::vector<double> variance;    ///< [point], lux^2: of form factors and lamps
-  std::vector<double> mesh_lux;    ///< [point], half-width: of what sides send
-  std::vector<Rgb> radiosity;      ///< [element side], lm/m2
+  std::vector<Rgb> lux;          ///< [point], all but daylight straight from sun and sky
+  std::vector<double> variance;  ///< [point], lux^2: of form factors and lamps
+  std::vector<double> mesh_lux;  ///< [point], half-width: by `mesh_errors_lux`, once all is settled
+  std::vector<Rgb> radiosity;    ///< [element side], lm/m2
   std::vector<std::uint8_t> open;  ///< [element side], bits of the corners that count
   std::vector<double> spread;      ///< [element side], lm/m2: radiosity between corners, at most
   std::vector<double> uneven;      ///< [element side], lm/m2: doubt of the mean radiosity
@@ -85,6 +85,11 @@ struct MeshDoubt {
   float near = 0.0F, anywhere = 0.0F;
 };
 std::vector<MeshDoubt> mesh_doubts(const CornerLight& light);
+
+/// Half-widths of corners.
+/// @return  [point]
+std::vector<double> mesh_errors_lux(const CornerLight& light, const PointGather& gather,
+                                    std::span<const std::uint8_t> is_lit);
 
 /// Half-width for one row: see the above.
 /// @param of_side  [element side]

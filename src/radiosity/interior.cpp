@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -225,28 +226,35 @@ InteriorLight Interior::light(const LightRequest& request, Progress& progress) {
   gather_.prepare(light.is_lit, progress);
   times_.form_factors_s += looking.seconds();
   const Stopwatch sweeping;
-  const CornerProblem problem{mesh_,
-                              surfaces,
-                              points_,
-                              lamps_on(light.is_lit),
-                              request.lamp_scale,
-                              direct,
-                              kSweepShare * mesh_tolerance_pct(options_)};
+  CornerProblem problem{mesh_,
+                        surfaces,
+                        points_,
+                        lamps_on(light.is_lit),
+                        request.lamp_scale,
+                        direct,
+                        kSweepShare * mesh_tolerance_pct(options_)};
   CornerLight start;
   start.radiosity = light.shots.sides.radiosity;
   for (std::size_t s = 0; s < former.beyond_shots.size(); ++s) {
     start.radiosity[s] = start.radiosity[s] + former.beyond_shots[s];
     if (light.is_lit[points_.corner[s][0]] == 0) start.radiosity[s] = {};
   }
-  light.corners = solve_at_corners(problem, gather_, std::move(start), light.is_lit, progress);
-  for (auto rough = rough_points(light); gather_.look_finer(rough); rough = rough_points(light)) {
-    const Stopwatch again;
-    gather_.prepare(rough, progress);
-    times_.form_factors_s += again.seconds();
-    times_.solve_s -= again.seconds();
-    light.corners =
-        solve_at_corners(problem, gather_, std::move(light.corners), light.is_lit, progress);
+  light.corners = std::move(start);
+  // One sweep tells which corners have to look more finely; then light is settled.
+  for (const double enough_pct : {std::numeric_limits<double>::infinity(), problem.enough_pct}) {
+    problem.enough_pct = enough_pct;
+    for (;;) {
+      light.corners =
+          solve_at_corners(problem, gather_, std::move(light.corners), light.is_lit, progress);
+      std::vector<std::uint8_t> rough = rough_points(light);
+      if (!gather_.look_finer(rough)) break;
+      const Stopwatch again;
+      gather_.prepare(rough, progress);
+      times_.form_factors_s += again.seconds();
+      times_.solve_s -= again.seconds();
+    }
   }
+  light.corners.mesh_lux = mesh_errors_lux(light.corners, gather_, light.is_lit);
   if (options_.many_skies && light.shots.is_converged) {
     former_.keep(std::move(source), weight, light.shots, light.corners.radiosity);
   }

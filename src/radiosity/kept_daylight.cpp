@@ -13,6 +13,7 @@
 #include "illuminance/outline_gap.h"
 #include "illuminance/sensor_cells.h"
 #include "illuminance/sensor_sun.h"
+#include "sky_models/cie_general_sky.h"
 #include "visibility/slice_tracer.h"
 
 namespace tenku {
@@ -24,8 +25,10 @@ constexpr int kMostInDark = 256;                  // where none has seen the sky
 constexpr int kFine = 64;                         // in a turn, where the sky is seen, at least
 constexpr int kEnough = 32;                       // that see the sky
 constexpr double kOtherwise = 0.2;                // of what is missed, as measured in a room
-constexpr int kFiner = 4;                         // times as many slices, after each finding anew
+constexpr int kFiner = 4;                         // times as many slices, where trials ask for it
 constexpr std::uint8_t kFinest = 2;               // times that
+constexpr int kTrials = 6;                        // clear skies, by which that is found
+constexpr double kTrialSun_deg = 35.0;            // altitude
 constexpr std::uint64_t kStream = 0x6b657074ULL;  // of the random start of slices
 
 /// The slices of one sensor, more and more where it sees the sky.
@@ -145,6 +148,36 @@ void KeptDaylight::keep(const Sensors& sensors, const DaylightMethod& daylight,
   }
   planes_ = static_cast<std::uint32_t>(plane.size());
   keep_looks(sensors, that_see, daylight, progress);
+  for (std::uint8_t k = 0; k < kFinest; ++k) {
+    const std::vector<std::uint32_t> rough = rough_in_trials(daylight.options);
+    for (const std::uint32_t i : rough) ++seen_[i].fineness;
+    keep_looks(sensors, rough, daylight, progress);
+  }
+}
+
+/// Sensors that would be found anew under clear skies.
+std::vector<std::uint32_t> KeptDaylight::rough_in_trials(const IlluminanceOptions& options) const {
+  std::vector<std::uint8_t> is_rough(seen_.size());
+  for (int k = 0; k < kTrials; ++k) {
+    const Vec3 sun =
+        direction_from(Angle::degrees(360.0 / kTrials * k), Angle::degrees(kTrialSun_deg));
+    const auto luminance =
+        SkyGrid::luminances(CieGeneralSky(12, sun, Luminance(1.0)), weights_->is_used());
+    const ErrorBudget budget(options.tolerance_pct, 0.0);
+    const std::vector<Times> all = times_of_all(luminance);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (!all[i].is_known) continue;
+      const double lux = all[i].mean * first_.sky_lux[i];
+      const double error = std::hypot(all[i].mean * first_.error_lux[i],
+                                      interval_lux(all[i].variance * lux * lux, 0.0));
+      is_rough[i] |= error > budget.allowed_lux(lux);
+    }
+  }
+  std::vector<std::uint32_t> rough;
+  for (std::uint32_t i = 0; i < is_rough.size(); ++i) {
+    if (is_rough[i] != 0) rough.push_back(i);
+  }
+  return rough;
 }
 
 void KeptDaylight::keep_looks(const Sensors& sensors, std::span<const std::uint32_t> which,
@@ -290,11 +323,6 @@ void KeptDaylight::find_anew(const Sensors& sensors, const DaylightMethod& dayli
       illuminate(sensors_of(sensors, missed), daylight.engines, daylight.source, daylight.options,
                  daylight.method, progress);
   take_direct(part, missed, result);
-  std::erase_if(missed, [&](std::uint32_t i) {
-    return seen_[i].fineness == kFinest || !(first_.sky_lux[i] > 0.0);
-  });
-  for (const std::uint32_t i : missed) ++seen_[i].fineness;
-  keep_looks(sensors, missed, daylight, progress);
 }
 
 }  // namespace tenku

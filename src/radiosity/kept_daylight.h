@@ -37,7 +37,8 @@ struct DaylightMethod {
 /// Error    of the number of times: half the difference between those of two halves of the slices,
 ///          pooled with those of the same plane. Sensors that so come out of
 ///          tolerance, and those that see the sky in fewer than kFewestSeeing slices, are found
-///          anew, and keep four times as many slices from then on, twice at most.
+///          anew. Few do: those that would under some clear skies keep four or 16 times as many
+///          slices.
 /// Cost     of another sky: some look-ups a slice, and the rays toward the sun.
 class KeptDaylight {
  public:
@@ -79,6 +80,7 @@ class KeptDaylight {
   void keep_looks(const Sensors& sensors, std::span<const std::uint32_t> which,
                   const DaylightMethod& daylight, Progress& progress);
   Times times(std::size_t sensor, std::span<const float> luminance) const;
+  std::vector<std::uint32_t> rough_in_trials(const IlluminanceOptions& options) const;
   std::vector<Times> times_of_all(std::span<const float> luminance) const;
   IlluminanceResult taken_over(const Sensors& sensors, const DaylightMethod& daylight,
                                Progress& progress);

@@ -10,7 +10,7 @@ namespace tenku {
 namespace {
 
 constexpr double kDegree = kPi / 180.0;
-constexpr double kLongest = 20.0 * kDegree;  // of altitudes for which two points stand
+constexpr double kLongest = 30.0 * kDegree;  // of altitudes for which two points stand
 constexpr std::size_t kGrain = 1024;
 
 /// The whole number below or above, each with the chance of being as near.
