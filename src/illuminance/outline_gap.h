@@ -96,10 +96,9 @@ class OutlineGap {
   /// outlines bend little.
   /// @param is_fine  good to 1e-5 of the light, not to 1e-3
   LuxAndView known(bool is_fine = false) const;
-  /// Light of the hole, on the line from its beginning to its end.
-  LuxAndView hole_light() const { return (0.5 * hole()) * (left_end() + right_end()); }
-  /// What changes from its beginning to its end, per radian.
-  LuxAndView hole_step() const { return right_end() - left_end(); }
+  /// Light where the hole begins and where it ends, per radian.
+  LuxAndView left_end() const;
+  LuxAndView right_end() const;
   /// Rays through panes so far.
   std::uint64_t rays_sent() const { return rays_sent_; }
 
@@ -115,8 +114,6 @@ class OutlineGap {
 
   /// Whether the sky is taken to show at an altitude; nothing where the bearing lies in a hole.
   std::optional<bool> shows(const Bearing& bearing, double sine) const;
-  LuxAndView left_end() const;   ///< where the hole begins
-  LuxAndView right_end() const;  ///< where it ends
   LuxAndView seen(const Bearing& bearing, Sides sides) const;
   /// Where the edges of both sides are equally high, between two bearings; the second if nowhere.
   Bearing crossing(Bearing from, Bearing to) const;

@@ -142,12 +142,15 @@ SensorSky::GapLight SensorSky::gap_light(std::size_t i) {
   result.is_fine = is_whole_;
   result.known = gap.known(is_whole_);
   result.hole_width = gap.hole();
-  if (result.hole_width > 0.0) result.hole = gap.hole_light();
+  if (result.hole_width > 0.0) {
+    const LuxAndView begin = gap.left_end(), end = gap.right_end();
+    result.hole = (0.5 * result.hole_width) * (begin + end);
+    result.step = (end - begin).lux;
+  }
   pane_rays_ += gap.rays_sent();
   if (!(result.hole_width > 0.0)) return result;
   result.hole_begin = gap.hole_begin().offset;
   result.is_blind = !gap.is_between_outlines();
-  result.step = gap.hole_step().lux;
   if (!result.is_blind) {
     const Bearing middle = middle_of(gap.hole_begin(), gap.hole_end());
     result.room = gap.hole() * gap.open_at(middle) - result.hole;
@@ -341,14 +344,14 @@ void SensorSky::check(const SliceLight& light, int checks, double weight) {
     const double wanted = whole * (k + turns - std::floor(turns)) / checks;
     const auto [a, b] = light.row_reaching(wanted, low, high);
     const double altitude = a + (b - a) * random_.uniform();
-    const double chance = light.measure(a, b) / whole;
-    if (!(chance > 0.0)) continue;
     double claimed = 0.0;
     for (const SeenPiece& p : piece_) {
       if (altitude >= p.low.radians && altitude <= p.high.radians) claimed = p.transmittance;
     }
     const bool visible = tracer_.check(altitude, claimed > 0.0);
     if (visible == (claimed > 0.0)) continue;
+    const double chance = light.measure(a, b) / whole;
+    if (!(chance > 0.0)) continue;
     const double missed = visible ? tracer_.glass_transmission(altitude) : -claimed;
     sum = sum + (missed / chance) * light.both(Altitude::of(a), Altitude::of(b));
   }
@@ -364,11 +367,14 @@ SensorSky::Sum SensorSky::even_sum() const {
     return a.is_outlined && b.is_outlined && a.low.touches(b.low) && a.high.touches(b.high);
   };
   Sum sum;
+  bool is_left_on = goes_on(at(entry_.size() - 1), at(0));
   for (std::size_t i = 0; i < entry_.size(); ++i) {
     const SkySlice &left = at(before(i)), &here = at(i), &right = at(i + 1);
     sum.light = sum.light + pitch * here.light;
     const double bend = here.light.lux - 0.5 * (left.light.lux + right.light.lux);
-    if (!goes_on(left, here) || !goes_on(here, right)) {
+    const bool was_on = is_left_on;
+    is_left_on = goes_on(here, right);
+    if (!was_on || !is_left_on) {
       sum.variance += square(pitch * bend) * (1.0 / 6.0 + kScatter / (3.0 * pitch));
       continue;
     }

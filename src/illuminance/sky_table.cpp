@@ -155,11 +155,13 @@ SliceMoments SkyTable::Column::to(double altitude_rad) const {
 
 SkyTable::Column::Row SkyTable::Column::row_reaching(double wanted, double h, double z,
                                                      double low_rad, double high_rad) const {
+  const auto summed = [&](const float* column, std::size_t k) {
+    return h * static_cast<double>(column[k]) + z * static_cast<double>(column[k + 2]);
+  };
   const auto at_node = [&](int row) {
     const std::size_t k = static_cast<std::size_t>(row) * kNodeFloats;
-    const double along = left_[k] + weight_ * (right_[k] - left_[k]);
-    const double up = left_[k + 2] + weight_ * (right_[k + 2] - left_[k + 2]);
-    return h * along + z * up;
+    const double left = summed(left_, k);
+    return left_ == right_ ? left : left + weight_ * (summed(right_, k) - left);
   };
   const double pitch = table_->row_rad_;
   int below = static_cast<int>(low_rad / pitch);

@@ -13,7 +13,7 @@ namespace tenku {
 ///
 /// Edge `e` of a triangle runs from its vertex `e` to its vertex `(e + 1) % 3`. Vertices of one
 /// object at the same place count as one. Where more than two triangles of an object meet in an
-/// edge, they are paired in file order.
+/// edge, they are paired with those nearest in the file.
 ///
 /// Threads  immutable after construction; may be shared.
 class MeshAdjacency {

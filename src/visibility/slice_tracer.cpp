@@ -44,15 +44,6 @@ SliceTracer::Corner SliceTracer::corner(std::uint32_t vertex) const {
   return {at, at.x * plane_.across.x + at.y * plane_.across.y};
 }
 
-bool SliceTracer::crosses(std::uint32_t triangle) const {
-  const auto& corners = rays_.soup().triangles[triangle];
-  const Corner a = corner(corners[0]), b = corner(corners[1]), c = corner(corners[2]);
-  if (!parted(a, b) && !parted(b, c)) return false;
-  // Cut by the whole plane; the slice is the half of it in front.
-  return (parted(a, b) && edge_point(a, b).r > 0.0) || (parted(b, c) && edge_point(b, c).r > 0.0) ||
-         (parted(c, a) && edge_point(c, a).r > 0.0);
-}
-
 SliceTracer::PlanePoint SliceTracer::edge_point(const Corner& a, const Corner& b) const {
   // The mean of the ends, weighted by how far the other lies beside the plane; not divided by the
   // weights, as only ratios and signs of what comes out matter on the way.
@@ -61,21 +52,33 @@ SliceTracer::PlanePoint SliceTracer::edge_point(const Corner& a, const Corner& b
   return {x * plane_.along.x + y * plane_.along.y, of_a * a.at.z + of_b * b.at.z, of_a + of_b};
 }
 
-SliceTracer::Outline SliceTracer::follow(std::uint32_t triangle, int sense) const {
+std::array<SliceTracer::Corner, 3> SliceTracer::corners(std::uint32_t triangle) const {
+  const auto& [a, b, c] = rays_.soup().triangles[triangle];
+  return {corner(a), corner(b), corner(c)};
+}
+
+bool SliceTracer::cut(std::uint32_t triangle, const std::array<Corner, 3>& at, Cut& result) const {
+  const bool first = parted(at[0], at[1]), second = parted(at[1], at[2]);
+  if (!first && !second) return false;
+  result.triangle = triangle;
+  result.edge = {first ? 0U : 1U, first && second ? 1U : 2U};
+  for (std::size_t k = 0; k < 2; ++k) {
+    result.point[k] = edge_point(at[result.edge[k]], at[(result.edge[k] + 1) % 3]);
+  }
+  // Cut by the whole plane; the slice is the half of it in front.
+  return result.point[0].r > 0.0 || result.point[1].r > 0.0;
+}
+
+SliceTracer::Outline SliceTracer::follow(const Cut& start, int sense) const {
   const auto& soup = rays_.soup();
   // Turning from p to q by the sense of the walk: positive if q lies further that way.
   const auto turn = [&](PlanePoint p, PlanePoint q) { return sense * (p.r * q.z - p.z * q.r); };
-  unsigned edge = 0;
-  PlanePoint best{};
-  Corner from, to;  // of the edge
-  bool found = false;
-  for (unsigned e = 0; e < 3; ++e) {
-    const Corner a = corner(soup.triangles[triangle][e]);
-    const Corner b = corner(soup.triangles[triangle][(e + 1) % 3]);
-    if (!parted(a, b)) continue;
-    const PlanePoint p = edge_point(a, b);
-    if (!found || turn(best, p) > 0.0) best = p, edge = e, from = a, to = b, found = true;
-  }
+  const std::size_t further = turn(start.point[0], start.point[1]) > 0.0 ? 1 : 0;
+  std::uint32_t triangle = start.triangle;
+  unsigned edge = start.edge[further];
+  PlanePoint best = start.point[further];
+  Corner from = corner(soup.triangles[triangle][edge]);  // of the edge
+  Corner to = corner(soup.triangles[triangle][(edge + 1) % 3]);
   for (int step = 0; step < kMostSteps; ++step) {
     if (best.r <= 0.0) break;  // over the zenith
     const std::uint32_t across_edge = rays_.adjacency().opposite(triangle, edge);
@@ -94,23 +97,42 @@ SliceTracer::Outline SliceTracer::follow(std::uint32_t triangle, int sense) cons
     edge = beside_from ? (entry + 1) % 3 : (entry + 2) % 3;
     (beside_from ? from : to) = third;
   }
-  const Altitude altitude = best.r > 0.0   ? Altitude::of_slope(best.z / best.r)
-                            : best.z > 0.0 ? Altitude::zenith()
-                                           : Altitude{};
   const auto& corners = soup.triangles[triangle];
-  return {altitude,
-          triangle,
-          std::sqrt(best.r * best.r + best.z * best.z) / best.scale,
-          {corners[edge], corners[(edge + 1) % 3]}};
+  return {best, triangle, {corners[edge], corners[(edge + 1) % 3]}};
 }
 
-std::uint32_t SliceTracer::cut_near(std::uint32_t triangle) const {
-  if (triangle == kNone || crosses(triangle)) return triangle;
+Altitude SliceTracer::Outline::altitude() const {
+  if (point.r > 0.0) return Altitude::of_slope(point.z / point.r);
+  return point.z > 0.0 ? Altitude::zenith() : Altitude{};
+}
+
+double SliceTracer::Outline::distance() const {
+  return std::sqrt(point.r * point.r + point.z * point.z) / point.scale;
+}
+
+bool SliceTracer::Outline::is_past(const Altitude& other, int sense, double by_rad) const {
+  if (!(point.r > 0.0)) return sense * (altitude().radians - other.radians) > by_rad;
+  const double turned = sense * (point.z * other.cosine - point.r * other.sine);
+  return by_rad > 0.0 ? turned > by_rad * std::sqrt(point.r * point.r + point.z * point.z)
+                      : turned > 0.0;
+}
+
+bool SliceTracer::cut_near(std::uint32_t triangle, Cut& result) const {
+  if (triangle == kNone) return false;
+  const auto& soup = rays_.soup();
+  const std::array<Corner, 3> at = corners(triangle);
+  if (parted(at[0], at[1]) || parted(at[1], at[2])) {
+    if (cut(triangle, at, result)) return true;
+  }
   for (unsigned e = 0; e < 3; ++e) {
     const std::uint32_t other = rays_.adjacency().opposite(triangle, e);
-    if (other != kNone && crosses(other / 3)) return other / 3;
+    if (other == kNone) continue;
+    // It shares two corners: where these lie on one side the third decides.
+    const Corner third = corner(soup.triangles[other / 3][(other % 3 + 2) % 3]);
+    if (!parted(at[e], at[(e + 1) % 3]) && !parted(at[e], third)) continue;
+    if (cut(other / 3, result)) return true;
   }
-  return kNone;
+  return false;
 }
 
 Altitude SliceTracer::find_end(const Altitude& start, const Altitude& limit, int sense, End& end,
@@ -121,15 +143,15 @@ Altitude SliceTracer::find_end(const Altitude& start, const Altitude& limit, int
   double beyond = kBeyond, step_out = kBeyond;
   end.edge = {};
   const auto passed = [&](const Altitude& a) { return sense * (a.radians - limit.radians) >= 0.0; };
+  Cut known, met;
   const auto try_hint = [&](std::uint32_t hint) {
-    const std::uint32_t known = cut_near(hint);
-    if (known == kNone) return;
+    if (!cut_near(hint, known)) return;
     const Outline outline = follow(known, sense);
-    if (!(sense * (outline.altitude.radians - at.radians) > 0.0)) return;
+    if (!outline.is_past(at, sense)) return;
     // It bounds this slice too only if it hides all from the start on.
-    if (sense * (follow(known, -sense).altitude.radians - start.radians) > kTouching) return;
-    at = outline.altitude;
-    end = {known, outline.edge};
+    if (follow(known, -sense).is_past(start, sense, kTouching)) return;
+    at = outline.altitude();
+    end = {known.triangle, outline.edge};
   };
   const std::uint32_t last = end.hint;
   try_hint(last);
@@ -141,11 +163,11 @@ Altitude SliceTracer::find_end(const Altitude& start, const Altitude& limit, int
     const auto hit = rays_.first_hit(origin_, direction(probed));
     if (!hit) return at;
     at = probed;
-    if (crosses(hit->triangle)) {
-      const Outline outline = follow(hit->triangle, sense);
-      if (sense * (outline.altitude.radians - probed.radians) > 0.0) {
-        at = outline.altitude;
-        step_out = kBeyond + 2.0 * rays_.lift_m() / std::max(outline.distance, 1e-3);
+    if (cut(hit->triangle, met)) {
+      const Outline outline = follow(met, sense);
+      if (outline.is_past(probed, sense)) {
+        at = outline.altitude();
+        step_out = kBeyond + 2.0 * rays_.lift_m() / std::max(outline.distance(), 1e-3);
         end = {outline.triangle, outline.edge};
         beyond = step_out;
         continue;
@@ -186,10 +208,10 @@ VisibleSlice SliceTracer::trace(Vec3 along, const Altitude& low, const Altitude&
   slice.hints = {low_end_.hint, high_end_.hint};
   for (int i = 0; i < floating_count_; ++i) {
     std::uint32_t& triangle = floating_[static_cast<std::size_t>(i)];
-    const std::uint32_t cut = cut_near(triangle);
-    if (cut == kNone) continue;
-    triangle = cut;
-    slice.remove(follow(cut, -1).altitude, follow(cut, +1).altitude);
+    Cut known;
+    if (!cut_near(triangle, known)) continue;
+    triangle = known.triangle;
+    slice.remove(follow(known, -1).altitude(), follow(known, +1).altitude());
   }
   return slice;
 }
@@ -214,7 +236,7 @@ bool SliceTracer::check(double altitude_rad, bool claimed) {
   if (!claimed) return !rays_.is_occluded(origin_, toward);
   const auto hit = rays_.first_hit(origin_, toward);
   if (!hit) return true;
-  if (crosses(hit->triangle)) remember(hit->triangle);
+  if (Cut met; cut(hit->triangle, met)) remember(hit->triangle);
   return false;
 }
 

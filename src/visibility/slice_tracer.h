@@ -89,11 +89,16 @@ class SliceTracer {
     Vec3 at;
     double side = 0.0;
   };
+  /// Where the mesh turns back.
   struct Outline {
-    Altitude altitude;
+    PlanePoint point;
     std::uint32_t triangle;  ///< the last one on the way
-    double distance;         ///< of the outline, in metres
     OutlineEdge edge;
+
+    Altitude altitude() const;
+    double distance() const;  ///< metres
+    /// Whether it lies further than `other` by an angle (small, radians) in the sense of the walk.
+    bool is_past(const Altitude& other, int sense, double by_rad = 0.0) const;
   };
   /// Where the visible part of a slice ends, and what it remembers for the next slice.
   struct End {
@@ -101,21 +106,34 @@ class SliceTracer {
     OutlineEdge edge;
   };
 
+  /// A triangle that the slice cuts, by the two of its edges that it crosses.
+  struct Cut {
+    std::uint32_t triangle;
+    std::array<unsigned, 2> edge;
+    std::array<PlanePoint, 2> point;
+  };
+
   Vec3 direction(const Altitude& altitude) const;
-  bool crosses(std::uint32_t triangle) const;
   Corner corner(std::uint32_t vertex) const;
   static bool parted(const Corner& a, const Corner& b) {
     return (a.side >= 0.0) != (b.side >= 0.0);
   }
   /// Where the plane cuts an edge with ends on either side.
   PlanePoint edge_point(const Corner& a, const Corner& b) const;
-  /// Follows the mesh from `triangle` toward rising (+1) or falling (-1) altitude.
-  Outline follow(std::uint32_t triangle, int sense) const;
+  std::array<Corner, 3> corners(std::uint32_t triangle) const;
+  /// @param at  the corners of the triangle
+  /// @returns false where it lies beside the slice, or behind it
+  bool cut(std::uint32_t triangle, const std::array<Corner, 3>& at, Cut& result) const;
+  bool cut(std::uint32_t triangle, Cut& result) const {
+    return cut(triangle, corners(triangle), result);
+  }
+  /// The same of the triangle or a neighbour, whichever the slice cuts.
+  bool cut_near(std::uint32_t triangle, Cut& result) const;
+  /// Follows the mesh from a cut toward rising (+1) or falling (-1) altitude.
+  Outline follow(const Cut& start, int sense) const;
   /// Climbs (or descends) from `start` until the sky shows or `limit` is passed.
   Altitude find_end(const Altitude& start, const Altitude& limit, int sense, End& end,
                     const std::array<std::uint32_t, 2>& hints);
-  /// The triangle itself or a neighbour, whichever the slice cuts.
-  std::uint32_t cut_near(std::uint32_t triangle) const;
   void remember(std::uint32_t triangle);
   bool zenith_is_open();
 
