@@ -18,6 +18,8 @@ namespace {
 
 constexpr double kShotShare = 0.1;   // of the tolerance: what shots may leave unshot
 constexpr double kSweepShare = 0.1;  // of the tolerance, in dim places: left by sweeps
+constexpr double kSurely = 1.1;      // times the tolerance: what settling does not mend
+constexpr double kAgain = 1.05;      // likewise, of corners that a former light has made exact
 constexpr double kDimShare = 0.1;    // of the mean light: dimmer corners need not be exact
 constexpr double kUsualTolerance = 2.0, kFinestTolerance = 0.5;  // percent
 constexpr int kFinestCorner = 128;
@@ -240,13 +242,15 @@ InteriorLight Interior::light(const LightRequest& request, Progress& progress) {
     if (light.is_lit[points_.corner[s][0]] == 0) start.radiosity[s] = {};
   }
   light.corners = std::move(start);
-  // One sweep tells which corners have to look more finely; then light is settled.
-  for (const double enough_pct : {std::numeric_limits<double>::infinity(), problem.enough_pct}) {
+  // One sweep tells which corners surely have to look more finely; then light is settled.
+  for (const auto& [enough_pct, margin] :
+       {std::pair{std::numeric_limits<double>::infinity(), kSurely},
+        std::pair{problem.enough_pct, former.beyond_shots.empty() ? 1.0 : kAgain}}) {
     problem.enough_pct = enough_pct;
     for (;;) {
       light.corners =
           solve_at_corners(problem, gather_, std::move(light.corners), light.is_lit, progress);
-      std::vector<std::uint8_t> rough = rough_points(light);
+      std::vector<std::uint8_t> rough = rough_points(light, margin);
       if (!gather_.look_finer(rough)) break;
       const Stopwatch again;
       gather_.prepare(rough, progress);
@@ -271,7 +275,7 @@ InteriorLight Interior::light(const LightRequest& request, Progress& progress) {
   return light;
 }
 
-std::vector<std::uint8_t> Interior::rough_points(const InteriorLight& light) const {
+std::vector<std::uint8_t> Interior::rough_points(const InteriorLight& light, double margin) const {
   const CornerLight& corners = light.corners;
   const auto lux = [&](std::size_t i) {
     return light.points.sun_lux[i] + light.points.sky_lux[i] + luminance_of(corners.lux[i]);
@@ -284,7 +288,8 @@ std::vector<std::uint8_t> Interior::rough_points(const InteriorLight& light) con
   const ErrorBudget budget(mesh_tolerance_pct(options_), kDimShare * sum / std::max(lit, 1.0));
   std::vector<std::uint8_t> rough(points_.size());
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    rough[i] = steps_finer(interval_lux(corners.variance[i], 0.0), budget.allowed_lux(lux(i)));
+    rough[i] =
+        steps_finer(interval_lux(corners.variance[i], 0.0), margin * budget.allowed_lux(lux(i)));
   }
   return rough;
 }

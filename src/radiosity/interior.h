@@ -117,7 +117,8 @@ class Interior {
                                        const DaylightOnSides& direct) const;
   const LampsOnMesh& lamps_on(std::span<const std::uint8_t> is_lit);
   /// By how many steps corners have to look more finely to be within the tolerance [point].
-  std::vector<std::uint8_t> rough_points(const InteriorLight& light) const;
+  /// @param margin  on the tolerance
+  std::vector<std::uint8_t> rough_points(const InteriorLight& light, double margin) const;
   void tell_leaks(InteriorLight& light);
   void tell_refused(std::vector<Finding>& findings) const;
 

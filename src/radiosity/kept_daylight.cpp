@@ -19,6 +19,7 @@
 namespace tenku {
 namespace {
 
+constexpr std::size_t kLightGrain = 256;          // the same where a sensor costs little
 constexpr std::size_t kGrain = 16;                // sensors a task
 constexpr int kFirst = 16, kMost = 4096;          // slices in a turn
 constexpr int kMostInDark = 256;                  // where none has seen the sky
@@ -247,7 +248,7 @@ KeptDaylight::Times KeptDaylight::times(std::size_t sensor,
 std::vector<KeptDaylight::Times> KeptDaylight::times_of_all(
     std::span<const float> luminance) const {
   std::vector<Times> all(seen_.size());
-  parallel_for(seen_.size(), kGrain, [&](IndexRange range) {
+  parallel_for(seen_.size(), kLightGrain, [&](IndexRange range) {
     for (std::size_t i = range.begin; i < range.end; ++i) all[i] = times(i, luminance);
   });
   std::vector<std::vector<double>> draws(planes_);
@@ -279,7 +280,7 @@ IlluminanceResult KeptDaylight::taken_over(const Sensors& sensors, const Dayligh
   result.is_missed.resize(sensors.size());
   std::vector<std::uint64_t> sent(sensors.size());
   progress.begin("daylight taken over", sensors.size());
-  parallel_for(sensors.size(), kGrain, [&](IndexRange range) {
+  parallel_for(sensors.size(), kLightGrain, [&](IndexRange range) {
     progress.stop_if_cancelled();
     for (std::size_t i = range.begin; i < range.end; ++i) {
       // Of what sees nearly nothing, hardly anything is known: all of it may be wrong.

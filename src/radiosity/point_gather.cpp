@@ -9,8 +9,9 @@
 namespace tenku {
 namespace {
 
-constexpr std::size_t kGrain = 8;     // points a task
-constexpr std::size_t kChunk = 8192;  // rows between two looks at the memory
+constexpr std::size_t kGrain = 8;      // rows to find a task
+constexpr std::size_t kRowGrain = 64;  // points a task that have them
+constexpr std::size_t kChunk = 8192;   // rows between two looks at the memory
 constexpr std::uint64_t kSecondSeed = 0x9e3779b97f4a7c15U;
 
 /// Samples go with its square: twice as many a level.
@@ -105,7 +106,7 @@ void PointGather::prepare(std::span<const std::uint8_t> is_wanted, Progress& pro
 void PointGather::for_rows(
     std::span<const std::uint8_t> is_wanted,
     const std::function<void(std::size_t, std::size_t, const FormFactorRow&)>& use) const {
-  parallel_for(points_.size(), kGrain, [&](IndexRange range) {
+  parallel_for(points_.size(), kRowGrain, [&](IndexRange range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
       if (is_wanted[i] == 0) continue;
       for (std::size_t look = 0; look < kLooks; ++look) {

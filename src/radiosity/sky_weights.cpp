@@ -10,7 +10,8 @@ namespace tenku {
 namespace {
 
 constexpr double kDegree = kPi / 180.0;
-constexpr double kLongest = 30.0 * kDegree;  // of altitudes for which two points stand
+// Altitudes for which two points stand: near the horizon skies change the most.
+constexpr double kLow = 30.0 * kDegree, kLongestLow = 10.0 * kDegree, kLongestHigh = 20.0 * kDegree;
 constexpr std::size_t kGrain = 1024;
 
 /// The whole number below or above, each with the chance of being as near.
@@ -79,18 +80,20 @@ std::array<double, SkyWeights::kHalves> SkyWeights::lux(std::size_t sensor,
 
 void add_range(const SkyRange& range, SampleRandom& random, std::size_t half,
                SkyWeights::Row& row) {
-  const double height = range.high_rad - range.low_rad;
-  const int parts = std::max(1, static_cast<int>(std::ceil(height / kLongest)));
-  const double part = height / parts, away = 0.5 * part / std::sqrt(3.0);
-  for (int k = 0; k < parts; ++k) {
-    const double middle = range.low_rad + (k + 0.5) * part;
-    for (const double altitude : {middle - away, middle + away}) {
+  const auto add_parts = [&](double low, double high, double longest) {
+    if (!(low < high)) return;
+    const int parts = std::max(1, static_cast<int>(std::ceil((high - low) / longest)));
+    const double part = (high - low) / parts, away = 0.5 * part / std::sqrt(3.0);
+    for (int k = 0; k < 2 * parts; ++k) {
+      const double altitude = low + (k / 2 + 0.5) * part + (k % 2 == 0 ? -away : away);
       const double level = std::cos(altitude);
       const double across = level * (range.toward * level + range.up * std::sin(altitude));
       row.node[half].push_back(SkyGrid::node_near(range.azimuth_rad, altitude, random));
       row.weight_sr[half].push_back(static_cast<float>(0.5 * part * range.width_rad * across));
     }
-  }
+  };
+  add_parts(range.low_rad, std::min(range.high_rad, kLow), kLongestLow);
+  add_parts(std::max(range.low_rad, kLow), range.high_rad, kLongestHigh);
 }
 
 }  // namespace tenku

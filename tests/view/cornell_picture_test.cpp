@@ -150,7 +150,7 @@ TEST(CornellPicture, ByPathsHasTheSameLightAndColours) {
   const Reference reference = reference_picture();
   const LitScene lit = testing_support::cornell_box(kFolder);
   ViewRequest request;
-  request.view = testing_support::cornell_view(kSide / 2);
+  request.view = testing_support::cornell_view(kSide);
   request.tolerance_pct = 5.0;
   request.bounces = 12;
   Progress quiet;
