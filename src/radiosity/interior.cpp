@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -18,8 +17,7 @@ namespace {
 
 constexpr double kShotShare = 0.1;   // of the tolerance: what shots may leave unshot
 constexpr double kSweepShare = 0.1;  // of the tolerance, in dim places: left by sweeps
-constexpr double kSurely = 1.1;      // times the tolerance: what settling does not mend
-constexpr double kAgain = 1.05;      // likewise, of corners that a former light has made exact
+constexpr double kAgain = 1.05;      // times the tolerance: corners that one light has made exact
 constexpr double kDimShare = 0.1;    // of the mean light: dimmer corners need not be exact
 constexpr double kUsualTolerance = 2.0, kFinestTolerance = 0.5;  // percent
 constexpr int kFinestCorner = 128;
@@ -46,7 +44,7 @@ double mesh_tolerance_pct(const InteriorOptions& options) {
 int corner_resolution(const InteriorOptions& options) {
   if (options.point_resolution > 0) return options.point_resolution;
   const double finer = std::pow(kUsualTolerance / mesh_tolerance_pct(options), 2.0 / 3.0);
-  return static_cast<int>(std::lround(std::clamp(17.0 * finer, 12.0, 128.0)));
+  return static_cast<int>(std::lround(std::clamp(24.0 * finer, 16.0, 128.0)));
 }
 
 /// Of a lamp seen in part n rays miss n^(-3/4).
@@ -228,13 +226,13 @@ InteriorLight Interior::light(const LightRequest& request, Progress& progress) {
   gather_.prepare(light.is_lit, progress);
   times_.form_factors_s += looking.seconds();
   const Stopwatch sweeping;
-  CornerProblem problem{mesh_,
-                        surfaces,
-                        points_,
-                        lamps_on(light.is_lit),
-                        request.lamp_scale,
-                        direct,
-                        kSweepShare * mesh_tolerance_pct(options_)};
+  const CornerProblem problem{mesh_,
+                              surfaces,
+                              points_,
+                              lamps_on(light.is_lit),
+                              request.lamp_scale,
+                              direct,
+                              kSweepShare * mesh_tolerance_pct(options_)};
   CornerLight start;
   start.radiosity = light.shots.sides.radiosity;
   for (std::size_t s = 0; s < former.beyond_shots.size(); ++s) {
@@ -242,22 +240,18 @@ InteriorLight Interior::light(const LightRequest& request, Progress& progress) {
     if (light.is_lit[points_.corner[s][0]] == 0) start.radiosity[s] = {};
   }
   light.corners = std::move(start);
-  // One sweep tells which corners surely have to look more finely; then light is settled.
-  for (const auto& [enough_pct, margin] :
-       {std::pair{std::numeric_limits<double>::infinity(), kSurely},
-        std::pair{problem.enough_pct, former.beyond_shots.empty() ? 1.0 : kAgain}}) {
-    problem.enough_pct = enough_pct;
-    for (;;) {
-      light.corners =
-          solve_at_corners(problem, gather_, std::move(light.corners), light.is_lit, progress);
-      std::vector<std::uint8_t> rough = rough_points(light, margin);
-      if (!gather_.look_finer(rough)) break;
-      const Stopwatch again;
-      gather_.prepare(rough, progress);
-      times_.form_factors_s += again.seconds();
-      times_.solve_s -= again.seconds();
-    }
+  const double margin = has_light_ ? kAgain : 1.0;
+  for (;;) {
+    light.corners =
+        solve_at_corners(problem, gather_, std::move(light.corners), light.is_lit, progress);
+    std::vector<std::uint8_t> rough = rough_points(light, margin);
+    if (!gather_.look_finer(rough)) break;
+    const Stopwatch again;
+    gather_.prepare(rough, progress);
+    times_.form_factors_s += again.seconds();
+    times_.solve_s -= again.seconds();
   }
+  has_light_ = true;
   light.corners.mesh_lux = mesh_errors_lux(light.corners, gather_, light.is_lit);
   if (options_.many_skies && light.shots.is_converged) {
     former_.keep(std::move(source), weight, light.shots, light.corners.radiosity);

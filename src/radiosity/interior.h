@@ -30,7 +30,7 @@ namespace tenku {
 struct InteriorOptions {
   std::string form_factors = "hemisphere-rays";  ///< method
   FormFactorOptions shot{.resolution = 32};      ///< of each of the points of a patch that shoots
-  int point_resolution = 0;  ///< of corners of elements; 0: by the tolerance, 17 at 2 %
+  int point_resolution = 0;  ///< of corners of elements; 0: by the tolerance, 24 at 2 %
   int sensor_resolution = 128;
   double tolerance_pct = 2.0;
   std::size_t most_shots = 0;                      ///< 0: as many as it takes
@@ -132,6 +132,7 @@ class Interior {
   PointGather gather_;
   EmitterLight emitters_;
   KeptDaylight daylight_;
+  bool has_light_ = false;  ///< whether corners look as finely as one light has asked for
   FormerLights former_;
   std::optional<std::vector<std::uint8_t>> is_open_;  ///< [point], once it is known
   std::vector<float> enclosure_;  ///< [point], share of its view that surfaces fill, likewise
