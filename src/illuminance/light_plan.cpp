@@ -35,7 +35,8 @@ constexpr double kFinestTexel_m = 0.1, kCoarsestTexel_m = 8.0;
 constexpr int kLeastTexels = 128, kMostTexels = 2048, kUsualTexels = 1024;
 constexpr std::size_t kClusters = 4;
 constexpr double kInCluster = 2000.0;                    // sensors
-constexpr std::size_t kFewTrials = 2, kMoreTrials = 10;  // elements that tell the time
+constexpr std::size_t kFewTrials = 2, kMoreTrials = 10;  // elements that tell the time of maps,
+constexpr std::size_t kRayTrials = 16;                   // and of rays
 
 // Elements.
 constexpr std::size_t kFewestElements = 33, kMostElements = 4096;
@@ -320,24 +321,31 @@ class RegionPlanner {
   /// Clock time of one more direction for all sensors by one engine, from that of a few.
   double seconds_a_direction(Engine engine, const Sensors& at, const PlannedRegion& told) const {
     if (source_.model == nullptr) return 0.0;
-    if (engine == Engine::Rays) return slope_s(engines_.rays(), at);
-    return slope_s(engines_.maps().with(told.texels, told.reach_m), at);
+    const SkyPartition usual = partition_sky(*source_.model, partition_of(elements_asked()));
+    if (engine == Engine::Rays) {
+      trial_s(engines_.rays(), at, usual, kFewTrials);  // memory is touched
+      return trial_s(engines_.rays(), at, usual, kRayTrials) / static_cast<double>(kRayTrials);
+    }
+    const auto maps = engines_.maps().with(told.texels, told.reach_m);
+    const double first = trial_s(maps, at, usual, kFewTrials);  // contexts take the triangles
+    const double few = std::min(first, trial_s(maps, at, usual, kFewTrials));
+    const double more = trial_s(maps, at, usual, kMoreTrials);
+    return std::max(0.1 * more, more - few) / static_cast<double>(kMoreTrials - kFewTrials);
   }
 
-  double slope_s(const Visibility& asked, const Sensors& at) const {
-    const auto seconds = [&](std::size_t elements) {
-      PartitionRequest request;
-      request.method = PartitionMethod::Uniform;
-      request.elements = elements;
-      const SharedElements trial(partition_sky(*source_.model, request), source_.sky.get());
-      Progress quiet;
-      const Stopwatch watch;
-      trial.light(asked, at, quiet);
-      return watch.seconds();
-    };
-    const double few = seconds(kFewTrials);  // contexts take the triangles, memory is touched
-    const double again = std::min(few, seconds(kFewTrials)), more = seconds(kMoreTrials);
-    return std::max(0.1 * more, more - again) / static_cast<double>(kMoreTrials - kFewTrials);
+  /// Clock time of some of the elements, spread over the sky as all of them are: low directions
+  /// cost more than high ones.
+  double trial_s(const Visibility& asked, const Sensors& at, const SkyPartition& whole,
+                 std::size_t count) const {
+    SkyPartition some;
+    for (std::size_t k = 0; k < count; ++k) {
+      some.elements.push_back(whole.elements[(2 * k + 1) * whole.elements.size() / (2 * count)]);
+    }
+    const SharedElements trial(some, source_.sky.get());
+    Progress quiet;
+    const Stopwatch watch;
+    trial.light(asked, at, quiet);
+    return watch.seconds();
   }
 
   static double quantile(std::vector<double> values, double share) {
