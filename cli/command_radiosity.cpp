@@ -13,6 +13,7 @@
 #include "cli/sky_rows.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/processor_watch.h"
 #include "core/stopwatch.h"
 #include "meshing/mesh_surfaces.h"
 #include "output/field_writer.h"
@@ -73,7 +74,7 @@ struct LightRun {
   double open_lux = 0.0;  ///< of the unobstructed horizontal plane
   bool has_sun = false;
   InteriorLight light;
-  double seconds = 0.0, daylight_s = 0.0;
+  double seconds = 0.0, daylight_s = 0.0, processor_s = 0.0;
 };
 
 nlohmann::ordered_json json_of_rounds(const MeshLoop& loop) {
@@ -165,6 +166,7 @@ class RadiosityRun {
 
   void solve(const SkyRow& row) {
     const Stopwatch watch;
+    const ProcessorWatch processor;
     LightRun run;
     Sky sky = resolve_sky(row.site, row.sky, lit_.site());
     const DaylightSource source = daylight_of(sky);
@@ -187,6 +189,7 @@ class RadiosityRun {
     run.light.findings.insert(run.light.findings.end(), sky.diagnostics.begin(),
                               sky.diagnostics.end());
     run.seconds = watch.seconds();
+    run.processor_s = processor.seconds();
     runs_.push_back(std::move(run));
   }
 
@@ -293,6 +296,7 @@ class RadiosityRun {
       nlohmann::ordered_json one = json_of_light(run);
       one["seconds"] = run.seconds;
       one["daylight_s"] = run.daylight_s;
+      one["processor_s"] = run.processor_s;
       json["skies"].push_back(std::move(one));
     }
     return json;

@@ -40,15 +40,10 @@ double gradation(const Coefficients& k, double cos_zenith_angle) {
   return 1.0 + k.a * std::exp(k.b / cos_zenith_angle);
 }
 
-double indicatrix(const Coefficients& k, Angle from_sun) {
-  const double chi = from_sun.in_radians(), cos_chi = std::cos(chi);
-  return 1.0 + k.c * (std::exp(k.d * chi) - std::exp(k.d * kPi / 2.0)) + k.e * cos_chi * cos_chi;
-}
-
 }  // namespace
 
 CieGeneralSky::CieGeneralSky(int type, Vec3 sun, Luminance zenith_luminance)
-    : k_(table_1(type)), sun_(sun) {
+    : k_(table_1(type)), across_(std::exp(k_.d * kPi / 2.0)), sun_(sun) {
   expects(is_unit(sun), "sun is a unit vector");
   if (!(sun.z > 0.0)) throw InputError("the sun must be above the horizon");
   if (!(zenith_luminance > Luminance(0.0)) || std::isinf(zenith_luminance.value())) {
@@ -61,8 +56,14 @@ Luminance CieGeneralSky::luminance(Vec3 direction) const {
   return direction.z < 0.0 ? Luminance(0.0) : relative_luminance(direction) * scale_;
 }
 
+double CieGeneralSky::indicatrix(Vec3 direction) const {
+  if (k_.c == 0.0 && k_.e == 0.0) return 1.0;
+  const double chi = angle_between(direction, sun_).in_radians(), cos_chi = dot(direction, sun_);
+  return 1.0 + k_.c * (std::exp(k_.d * chi) - across_) + k_.e * cos_chi * cos_chi;
+}
+
 double CieGeneralSky::relative_luminance(Vec3 direction) const {
-  return gradation(k_, std::abs(direction.z)) * indicatrix(k_, angle_between(direction, sun_));
+  return gradation(k_, std::abs(direction.z)) * indicatrix(direction);
 }
 
 }  // namespace tenku

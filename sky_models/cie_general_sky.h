@@ -34,9 +34,11 @@ class CieGeneralSky : public SkyModel {
   [[nodiscard]] Luminance luminance(Vec3 direction) const override;
 
  private:
+  double indicatrix(Vec3 direction) const;
   double relative_luminance(Vec3 direction) const;
 
   Coefficients k_;
+  double across_;  ///< exp(d pi / 2), at right angles to the sun
   Vec3 sun_;
   Luminance scale_;  ///< luminance at relative luminance 1
 };

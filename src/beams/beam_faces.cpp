@@ -41,9 +41,10 @@ class FaceJoiner {
     for (const Ring& ring : rings_) {
       if (ring.vertex.empty()) continue;
       const std::uint32_t t = ring.triangles.front();
-      BeamFace face{{}, ring.plane, soup_.object[t], soup_.material[t], ring.triangles, false};
+      BeamFace face{{}, ring.plane, soup_.object[t], soup_.material[t], ring.triangles};
       for (const std::uint32_t v : ring.vertex) face.corners.push_back(soup_.vertices[v]);
-      face.is_mirror = materials_[face.material].mirror > 0.0;
+      face.is_pane = materials_[face.material].is_glass();
+      face.is_mirror = face.is_pane || materials_[face.material].mirror > 0.0;
       made.push_back(std::move(face));
     }
     return made;
@@ -61,7 +62,6 @@ class FaceJoiner {
   }
 
   void add_triangle(std::uint32_t t) {
-    if (materials_[soup_.material[t]].is_glass()) return;
     const auto& [i, j, k] = soup_.triangles[t];
     const Vec3 a = soup_.vertices[i], b = soup_.vertices[j], c = soup_.vertices[k];
     const Vec3 across = cross(b - a, c - a);
@@ -170,7 +170,7 @@ double extent_of(const TriangleSoup& soup) {
 }  // namespace
 
 BeamFaces::BeamFaces(const TriangleSoup& soup, const std::vector<Material>& materials)
-    : extent_m_(extent_of(soup)) {
+    : materials_(materials), extent_m_(extent_of(soup)) {
   faces_ = FaceJoiner(soup, materials, extent_m_).faces();
   std::vector<FaceBox> boxes;
   for (const BeamFace& face : faces_) {

@@ -19,14 +19,15 @@ struct BeamFace {
   Plane plane;
   std::uint32_t object = 0, material = 0;
   std::vector<std::uint32_t> triangles;  ///< of the soup, those joined here
-  bool is_mirror = false;
+  bool is_mirror = false;                ///< sends light on: an opaque mirror or a pane
+  bool is_pane = false;                  ///< lets it through too
 };
 
 /// Faces of a scene, and a tree of boxes over them.
 ///
 /// Neighbouring triangles in one plane that share an edge, object and material are joined as long
-/// as they stay convex: how the file divides a pane is of no matter. Panes of glass, through which
-/// rays pass, are left out, as are triangles without area.
+/// as they stay convex: how the file divides a pane is of no matter. Triangles without area are
+/// left out.
 ///
 /// Source   greedy removal of diagonals: S. Hertel and K. Mehlhorn, FCT 1983.
 /// Threads  immutable after construction; may be shared.
@@ -40,12 +41,14 @@ class BeamFaces {
   const BeamFace& operator[](std::size_t face) const { return faces_[face]; }
   const FaceTree& tree() const { return tree_; }
   std::size_t mirrors() const { return mirrors_; }
+  const Material& material_of(const BeamFace& face) const { return materials_[face.material]; }
 
   /// Largest coordinate, metres: what rounding is measured by.
   double extent_m() const { return extent_m_; }
 
  private:
   std::vector<BeamFace> faces_;
+  std::vector<Material> materials_;
   FaceTree tree_;
   std::size_t mirrors_ = 0;
   double extent_m_ = 1.0;

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <atomic>
 #include <map>
+#include <utility>
 
+#include "beams/mirror_reflectance.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "visibility/ray_visibility.h"
 
 namespace tenku {
 namespace {
@@ -16,6 +19,7 @@ constexpr double kOnMirror = 1e-9;  ///< metres off its plane per metre of the s
 struct Task {
   WindowPolygon window;
   std::uint32_t beam;
+  double most_share;  ///< of a pixel's light that it can carry
 };
 
 class Tracer {
@@ -46,6 +50,8 @@ class Tracer {
     Plane front;
     if (!is_first) {
       front = front_of(beam);
+      // A wall in the plane of its window is seen behind it.
+      if (beam.is_through) front.offset -= 2.0 * on_mirror_m();
       sides.push_back(front);
     } else if (beam.view.is_point()) {
       sides.push_back(beam.view.through(0.0, 0.0, 1.0));
@@ -53,22 +59,26 @@ class Tracer {
     std::vector<SeenFace> seen;
     for (const std::uint32_t f : faces_.tree().before(sides)) {
       if (!is_first && !reaches_before(faces_[f], front)) continue;
+      if (beam.is_through && faces_[f].is_pane && !reaches_before(faces_[f], front_of(beam))) {
+        continue;
+      }
       const Nearness nearness = beam.view.nearness(faces_[f].plane);
       if (!is_seen_flat(beam.view, faces_[f].plane)) continue;
       WindowPolygon outline = seen_in_window(beam.view, faces_[f].corners,
                                              is_first ? nullptr : &front, window, options_.slack);
       if (!outline.empty()) {
-        seen.push_back({f, faces_[f].is_mirror, nearness, std::move(outline)});
+        seen.push_back({f, faces_[f].is_mirror, nearness, std::move(outline), faces_[f].is_pane});
       }
     }
     return seen;
   }
 
   bool reaches_before(const BeamFace& face, const Plane& front) const {
-    const double least = kOnMirror * faces_.extent_m();
     return std::any_of(face.corners.begin(), face.corners.end(),
-                       [&](Vec3 p) { return front.height(p) > least; });
+                       [&](Vec3 p) { return front.height(p) > on_mirror_m(); });
   }
+
+  double on_mirror_m() const { return kOnMirror * faces_.extent_m(); }
 
   /// Not edge-on.
   bool is_seen_flat(const BeamView& view, const Plane& plane) const {
@@ -81,34 +91,101 @@ class Tracer {
   const BeamOptions& options_;
 };
 
-/// Adds what the division of a task gave; the parts that go on behind a mirror become tasks.
-void gather(const BeamFaces& faces, const Task& task, std::vector<WindowPart> parts, int depth,
-            BeamTree& tree, std::vector<Task>& next) {
-  std::map<std::uint32_t, std::uint32_t> child;  // mirror -> beam
-  for (WindowPart& part : parts) {
-    const bool goes_on =
-        part.face < kUndivided && faces[part.face].is_mirror && tree.beams[task.beam].depth < depth;
-    if (!goes_on) {
-      tree.regions.push_back({std::move(part.corners), task.beam, part.face});
-      continue;
+/// Turns the parts into which tasks were divided into regions and new tasks.
+class Gatherer {
+ public:
+  Gatherer(const BeamFaces& faces, int depth, BeamTree& tree)
+      : faces_(faces), depth_(depth), tree_(tree) {}
+
+  void gather(const Task& task, std::vector<WindowPart> parts, std::vector<Task>& next) {
+    child_.clear();
+    for (WindowPart& part : parts) {
+      const bool is_pane = part.face < kUndivided && faces_[part.face].is_pane;
+      const Beam parent = tree_.beams[task.beam];
+      if (is_pane && parent.panes < kMostPanes) {
+        split(task, part, next);
+      } else if (!is_pane && part.face < kUndivided && faces_[part.face].is_mirror &&
+                 parent.depth < depth_) {
+        next.push_back({window_of(part.corners), child_of(task.beam, part.face, false),
+                        task.most_share * most_mirrored(parent, part)});
+      } else {
+        tree_.regions.push_back(
+            {std::move(part.corners), task.beam, is_pane ? kUndivided : part.face});
+      }
     }
-    const auto [at, is_new] =
-        child.emplace(part.face, static_cast<std::uint32_t>(tree.beams.size()));
-    if (is_new) {
-      const Beam& parent = tree.beams[task.beam];
-      tree.beams.push_back(
-          {parent.view.behind(faces[part.face].plane), task.beam, part.face, parent.depth + 1});
-    }
-    next.push_back({window_of(part.corners), at->second});
   }
-}
+
+ private:
+  void split(const Task& task, const WindowPart& part, std::vector<Task>& next) {
+    const Beam parent = tree_.beams[task.beam];
+    const double mirrored = task.most_share * most_mirrored(parent, part);
+    if (parent.depth < depth_ && mirrored > (1.0 - kRounding) * kLeastShare) {
+      next.push_back({window_of(part.corners), child_of(task.beam, part.face, false), mirrored});
+    }
+    const double upright = pane_transmittance(faces_.material_of(faces_[part.face]), 1.0);
+    next.push_back(
+        {window_of(part.corners), child_of(task.beam, part.face, true), task.most_share * upright});
+  }
+
+  /// Largest reflectance in a part of the window. It falls with the cosine of incidence, which is
+  /// least at a corner: where it is above a value is a cone, and convex.
+  double most_mirrored(const Beam& beam, const WindowPart& part) const {
+    const BeamFace& face = faces_[part.face];
+    double most = 0.0;
+    for (const WindowPoint p : part.corners) {
+      const double cosine = std::abs(dot(face.plane.normal, normalized(beam.view.direction(p))));
+      most = std::max(most, luminance_of(mirror_reflectance(faces_.material_of(face), cosine)));
+    }
+    return most;
+  }
+
+  std::uint32_t child_of(std::uint32_t beam, std::uint32_t face, bool is_through) {
+    const auto [at, is_new] =
+        child_.emplace(std::pair(face, is_through), static_cast<std::uint32_t>(tree_.beams.size()));
+    if (!is_new) return at->second;
+    Beam child = tree_.beams[beam];
+    child.parent = beam;
+    child.mirror = face;
+    child.is_through = is_through;
+    if (!is_through) {
+      child.view = child.view.behind(faces_[face].plane);
+      ++child.depth;
+    }
+    if (faces_[face].is_pane) {
+      if (!is_through) child.layer = layer_after(child.layer, child.panes);
+      ++child.panes;
+    }
+    tree_.beams.push_back(child);
+    return at->second;
+  }
+
+  /// The layer of what a pane mirrors that is met in a layer after so many panes.
+  std::uint32_t layer_after(std::uint32_t layer, int panes) {
+    const auto [at, is_new] = layers_.emplace(std::pair(layer, panes), tree_.layers);
+    if (is_new) ++tree_.layers;
+    return at->second;
+  }
+
+  static constexpr double kRounding = 1e-6;
+  const BeamFaces& faces_;
+  int depth_;
+  BeamTree& tree_;
+  std::map<std::pair<std::uint32_t, bool>, std::uint32_t> child_;  ///< of the task at hand
+  std::map<std::pair<std::uint32_t, int>, std::uint32_t> layers_;
+};
 
 }  // namespace
 
+std::vector<std::uint32_t> BeamTree::way_to(std::uint32_t beam) const {
+  std::vector<std::uint32_t> way;
+  for (; beams[beam].mirror != kNoFace; beam = beams[beam].parent) way.push_back(beam);
+  std::reverse(way.begin(), way.end());
+  return way;
+}
+
 std::vector<std::uint32_t> BeamTree::chain(std::uint32_t beam) const {
-  std::vector<std::uint32_t> mirrors;
-  for (; beams[beam].depth > 0; beam = beams[beam].parent) mirrors.push_back(beams[beam].mirror);
-  std::reverse(mirrors.begin(), mirrors.end());
+  std::vector<std::uint32_t> mirrors = way_to(beam);
+  for (std::uint32_t& at : mirrors) at = beams[at].mirror;
   return mirrors;
 }
 
@@ -119,8 +196,9 @@ BeamTree trace_beams(const BeamFaces& faces, const BeamView& view,
   const WindowPolygon whole = window_of(window);
   if (!(whole.area() > 0.0)) throw InputError("the window of the beams has no area");
   BeamTree tree;
-  tree.beams.push_back({view, 0, kNoFace, 0});
-  std::vector<Task> tasks{{whole, 0}};
+  tree.beams.push_back({view});
+  std::vector<Task> tasks{{whole, 0, 1.0}};
+  Gatherer gatherer(faces, options.depth, tree);
   const Tracer tracer(faces, options);
   while (!tasks.empty()) {
     std::vector<std::vector<WindowPart>> parts(tasks.size());
@@ -140,7 +218,7 @@ BeamTree trace_beams(const BeamFaces& faces, const BeamView& view,
     }
     std::vector<Task> next;
     for (std::size_t k = 0; k < tasks.size(); ++k) {
-      gather(faces, tasks[k], std::move(parts[k]), options.depth, tree, next);
+      gatherer.gather(tasks[k], std::move(parts[k]), next);
     }
     tasks = std::move(next);
   }

@@ -13,13 +13,23 @@
 
 namespace tenku {
 
+/// Shares of a pixel's light below which a pane's mirrored branch is not followed.
+inline constexpr double kLeastShare = 1e-4;
+
+/// Panes met by one way after which no more mirror.
+inline constexpr int kMostPanes = 32;
+
 /// One chain of mirrors. The first beam has met none; every other continues its parent behind one
-/// more mirror.
+/// more mirror, or through a pane.
 struct Beam {
   BeamView view;                   ///< the window as seen by way of the chain
   std::uint32_t parent = 0;        ///< of `BeamTree::beams`; the first is its own
   std::uint32_t mirror = kNoFace;  ///< face by which it left its parent
-  int depth = 0;                   ///< mirrors met
+  int depth = 0;                   ///< mirrors met, panes that mirrored among them
+  int panes = 0;                   ///< that mirrored or were looked through
+  bool is_through = false;         ///< `mirror` is a pane and looked through
+  std::uint32_t layer = 0;         ///< equal for beams whose rays were mirrored by the same panes
+                                   ///< in the same places of their chain; 0: by none
 };
 
 /// A convex part of the window whose rays meet the same mirrors and end at the same face.
@@ -43,11 +53,17 @@ struct BeamOptions {
 /// The regions of a window.
 struct BeamTree {
   std::vector<Beam> beams;
-  std::vector<BeamRegion> regions;  ///< without overlap or gap; in an order that is always the same
-  bool is_complete = true;          ///< false: there are more than `most_regions`
-  std::uint64_t queries = 0;        ///< walks through the tree of boxes
+  std::vector<BeamRegion> regions;  ///< in an order that is always the same. Those of one layer do
+                                    ///< not overlap, and layer 0 leaves no gap: where a pane both
+                                    ///< mirrors and is looked through there is one of each
+  std::uint32_t layers = 1;
+  bool is_complete = true;    ///< false: there are more than `most_regions`
+  std::uint64_t queries = 0;  ///< walks through the tree of boxes
 
-  /// The mirrors that a beam has met, the first first.
+  /// The beams that lead to a beam, itself the last, without the first of all.
+  [[nodiscard]] std::vector<std::uint32_t> way_to(std::uint32_t beam) const;
+
+  /// The mirrors and panes that a beam has met, the first first.
   [[nodiscard]] std::vector<std::uint32_t> chain(std::uint32_t beam) const;
 };
 
@@ -56,6 +72,9 @@ struct BeamTree {
 /// The window is divided by what is seen in it; the parts that end at a mirror are divided again,
 /// as seen from the mirrored apex, without ever leaving the window's coordinates. Polygons are cut
 /// by lines; nothing is sampled, so that no mirror is too small to be found.
+///
+/// A pane's part of the window goes on twice: mirrored, where that carries `kLeastShare` or more,
+/// and straight on with what is behind the pane.
 ///
 /// Both sides of a mirror reflect. A face that is seen edge-on has no part of the window. In what a
 /// mirror shows, only what is before the mirror's plane counts.

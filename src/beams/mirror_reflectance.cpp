@@ -5,6 +5,9 @@
 namespace tenku {
 
 Rgb mirror_reflectance(const Material& material, double cos_incidence) {
+  if (!(material.mirror > 0.0) && material.is_glass()) {
+    return Rgb::grey(pane_reflectance(material, cos_incidence));
+  }
   const Rgb upright = material.mirror * material.mirror_tint;
   if (!(material.mirror_index > 0.0)) return upright;
   Material pane;

@@ -6,8 +6,8 @@
 
 namespace tenku {
 
-/// Specular reflectance at the given cosine of the angle of incidence: constant, or by Fresnel's
-/// formulas where the material has a `mirror_index`.
+/// Specular reflectance at the given cosine of the angle of incidence: constant, by Fresnel's
+/// formulas where the material has a `mirror_index`, or of a pane by `pane_reflectance`.
 ///
 /// Source   what a clear pane of that index does not let through (see `pane_transmittance`). Where
 ///          `mirror` is another at normal incidence, as of coated glass, the part that is not

@@ -12,9 +12,8 @@
 namespace tenku {
 namespace {
 
-constexpr double kOnePanel = 1.7e-3;  // sine of a tenth of a degree
-constexpr double kFlat = 1e-6;        // sine: parts are joined where they are flat to that
-constexpr double kUsualIndex = 1.52;
+constexpr double kOnePanel = 1.7e-3;      // sine of a tenth of a degree
+constexpr double kFlat = 1e-6;            // sine: parts are joined where they are flat to that
 constexpr std::size_t kMostJoined = 200;  // parts of a panel: joining tries every pair
 
 std::uint32_t neighbour(const MeshAdjacency& adjacency, std::uint32_t triangle, unsigned edge) {
@@ -128,10 +127,7 @@ class PanelFinder {
 bool is_mirror(const Material& material) { return material.mirror > 0.0 || material.is_glass(); }
 
 double mirrored_share(const Material& material, double cos_incidence) {
-  if (material.mirror > 0.0) return luminance_of(mirror_reflectance(material, cos_incidence));
-  Material clear;
-  clear.index = material.index > 0.0 ? material.index : kUsualIndex;
-  return 1.0 - pane_transmittance(clear, cos_incidence);
+  return luminance_of(mirror_reflectance(material, cos_incidence));
 }
 
 std::vector<MirrorPanel> mirror_panels(const TriangleSoup& soup,

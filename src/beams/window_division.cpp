@@ -29,6 +29,7 @@ Order order_of(const SeenFace& face, const SeenFace& other) {
 }
 
 bool wins_tie(const SeenFace& a, const SeenFace& b) {
+  if (a.is_pane != b.is_pane) return a.is_pane;
   if (a.is_mirror != b.is_mirror) return a.is_mirror;
   return a.face < b.face;
 }
@@ -75,7 +76,7 @@ class Divider {
     for (const SeenFace& face : faces) {
       WindowPolygon outline = face.outline.cut(line, options_.slack, false);
       if (outline.empty()) continue;
-      kept.push_back({face.face, face.is_mirror, face.nearness, std::move(outline)});
+      kept.push_back({face.face, face.is_mirror, face.nearness, std::move(outline), face.is_pane});
     }
     return kept;
   }

@@ -15,6 +15,7 @@ struct SeenFace {
   bool is_mirror = false;
   Nearness nearness;
   WindowPolygon outline;  ///< within the window
+  bool is_pane = false;   ///< of two in one place a pane comes before a mirror
 };
 
 /// Instead of a face: nothing is there, or it was not asked which face it is.
@@ -38,8 +39,8 @@ struct DivisionOptions {
 ///
 /// The window is cut in two by the line of an edge that crosses it, again and again, until no edge
 /// crosses: then one face covers it, or none does. Where faces cross one another they are cut along
-/// the line in which they are equally near. Of two in one place a mirror is taken, else the one of
-/// the lower number.
+/// the line in which they are equally near. Of two in one place a pane is taken, or else a mirror,
+/// or else the one of the lower number.
 ///
 /// @return  as many parts as allowed and one more where there would be more than `most_parts`
 /// Error    the borders lie within `slack` of where they should.

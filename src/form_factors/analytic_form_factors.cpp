@@ -93,7 +93,10 @@ class SeenGrid {
 class AnalyticFormFactors : public FormFactorMethod {
  public:
   AnalyticFormFactors(const ElementMesh& mesh, const FormFactorOptions& options)
-      : mesh_(mesh), seed_(options.seed), soup_(soup_of(mesh)), rays_(soup_, materials_) {}
+      : mesh_(mesh),
+        seed_(options.seed),
+        soup_(soup_of(mesh)),
+        rays_(soup_.soup, soup_.materials) {}
 
   std::string_view name() const override { return "analytic"; }
   bool is_exact() const override { return true; }
@@ -162,8 +165,7 @@ class AnalyticFormFactors : public FormFactorMethod {
 
   const ElementMesh& mesh_;
   std::uint64_t seed_;
-  TriangleSoup soup_;
-  std::vector<Material> materials_{1};
+  MeshSoup soup_;
   RayVisibility rays_;
 };
 

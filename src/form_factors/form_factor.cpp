@@ -50,7 +50,9 @@ void check_form_factor_method(std::string_view name, const FormFactorOptions& op
 std::unique_ptr<FormFactorMethod> form_factor_method(std::string_view name, const ElementMesh& mesh,
                                                      const FormFactorOptions& options) {
   check_form_factor_method(name, options);
-  return maker_named(name)(mesh, options);
+  auto method = maker_named(name)(mesh, options);
+  if (mesh.panes.empty() || method->sees_panes()) return method;
+  return dimmed_by_panes(std::move(method), mesh);
 }
 
 }  // namespace tenku

@@ -18,7 +18,7 @@ struct FormFactor {
 };
 
 /// A row of the matrix: sides that nothing reaches are left out, no side is there twice.
-/// What the row lacks of 1 has escaped.
+/// What the row lacks of 1 has escaped, or was held back by panes.
 using FormFactorRow = std::vector<FormFactor>;
 
 /// A way to find form factors.
@@ -36,6 +36,9 @@ class FormFactorMethod {
 
   /// Whether rows from points are exact, but for rounding and crowds.
   virtual bool is_exact() const { return false; }
+
+  /// Whether rows are dimmed by the panes of the mesh.
+  virtual bool sees_panes() const { return false; }
 
   /// Of a small surface at a point: the fraction of what it sends, by Lambert's law, into the half
   /// space of its normal, that first meets each side; by reciprocity also what the irradiance

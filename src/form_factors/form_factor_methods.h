@@ -17,4 +17,11 @@ FormFactorMaker make_hemisphere_rays;
 FormFactorMaker make_hemicube;
 FormFactorMaker make_analytic_form_factors;
 
+/// A method that knows nothing of panes, dimmed by those of the mesh: each form factor times the
+/// mean transmittance toward 16 parts of the element, whether they are seen or not.
+///
+/// Error  where the edge of a pane crosses an element, or a part of it is hidden.
+std::unique_ptr<FormFactorMethod> dimmed_by_panes(std::unique_ptr<FormFactorMethod> method,
+                                                  const ElementMesh& mesh);
+
 }  // namespace tenku

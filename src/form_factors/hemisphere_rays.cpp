@@ -52,7 +52,7 @@ int grid_cells(int resolution) {
 class HemisphereRays : public FormFactorMethod {
  public:
   HemisphereRays(const ElementMesh& mesh, const FormFactorOptions& options)
-      : seed_(options.seed), soup_(soup_of(mesh)), rays_(soup_, materials_) {
+      : seed_(options.seed), mesh_(mesh), soup_(soup_of(mesh)), rays_(soup_.soup, soup_.materials) {
     for (std::uint32_t k = 0; k < kPatterns; ++k) {
       pattern_[k] =
           stratified_directions(grid_cells(options.resolution), SampleRandom(seed_, k, 0));
@@ -62,6 +62,7 @@ class HemisphereRays : public FormFactorMethod {
 
   std::string_view name() const override { return "hemisphere-rays"; }
   double lift_m() const override { return rays_.lift_m(); }
+  bool sees_panes() const override { return true; }
 
   FormFactorRow from_point(Vec3 position, Vec3 normal) const override {
     const std::vector<Vec3> direction = directions_at(position, normal);
@@ -72,8 +73,9 @@ class HemisphereRays : public FormFactorMethod {
       if (element[k] == RayVisibility::kNoTriangle) continue;
       const bool back = dot(direction[k], normal_[element[k]]) > 0.0;
       const std::uint32_t side = 2 * element[k] + (back ? 1U : 0U);
-      if (runs.empty() || runs.back().side != side) runs.push_back({side, 0});
-      ++runs.back().rays;
+      if (runs.empty() || runs.back().side != side) runs.push_back({side, 0.0});
+      runs.back().rays +=
+          rays_.has_glass() ? through_panes(position, direction[k], element[k]) : 1.0;
     }
     return row_of(std::move(runs), direction.size());
   }
@@ -92,26 +94,33 @@ class HemisphereRays : public FormFactorMethod {
     return direction;
   }
 
+  /// What is left of a ray where it meets an element.
+  double through_panes(Vec3 position, Vec3 direction, std::uint32_t element) const {
+    const Vec3 at = mesh_.vertices[mesh_.elements[element][0]];
+    const double away = dot(normal_[element], at - position) / dot(normal_[element], direction);
+    return rays_.glass_transmission(position, direction, away);
+  }
+
   /// Rays one after another that meet the same side: neighbours often do.
   struct Run {
-    std::uint32_t side, rays;
+    std::uint32_t side;
+    double rays;  ///< their number, less what panes hold back
   };
 
   static FormFactorRow row_of(std::vector<Run> runs, std::size_t rays) {
     std::sort(runs.begin(), runs.end(), [](Run a, Run b) { return a.side < b.side; });
     FormFactorRow row;
     for (std::size_t begin = 0, end = 0; begin < runs.size(); begin = end) {
-      std::size_t met = 0;
+      double met = 0.0;
       for (; end < runs.size() && runs[end].side == runs[begin].side; ++end) met += runs[end].rays;
-      row.push_back({runs[begin].side,
-                     static_cast<float>(static_cast<double>(met) / static_cast<double>(rays))});
+      row.push_back({runs[begin].side, static_cast<float>(met / static_cast<double>(rays))});
     }
     return row;
   }
 
   std::uint64_t seed_;
-  TriangleSoup soup_;
-  std::vector<Material> materials_{1};
+  const ElementMesh& mesh_;
+  MeshSoup soup_;
   RayVisibility rays_;
   std::vector<Vec3> normal_;  ///< of the front of each element, of any length
   std::array<std::vector<Vec3>, kPatterns> pattern_;

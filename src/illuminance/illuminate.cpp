@@ -68,8 +68,9 @@ class SensorWork {
              mix_bits(mix_bits(options.seed) + at.index)) {
     if (options.known_direct != nullptr) known_direct_ = options.known_direct->lux[at.index];
     if (paths == nullptr) return;
-    reflected_.emplace(ReflectedLight::Scene{rays, paths->cache, paths->lamps}, options.bounces,
-                       at.position(), at.normal(), SampleRandom(options.seed, at.index, 1));
+    reflected_.emplace(ReflectedLight::Scene{rays, paths->cache, paths->lamps, options.lamps_apart},
+                       options.bounces, at.position(), at.normal(),
+                       SampleRandom(options.seed, at.index, 1));
   }
 
   /// Refines until the budget is met; false if the limit of effort came first, or if what no

@@ -45,7 +45,8 @@ struct IlluminanceOptions {
   };
   const KnownDirect* known_direct = nullptr;
   const ReflectionFinder* reflection = nullptr;  ///< in place of paths. Borrowed
-  bool by_slices = false;                        ///< even where `source.elements` is given
+  bool lamps_apart = false;  ///< light straight from lamps is left to `add_lamp_light`
+  bool by_slices = false;    ///< even where `source.elements` is given
 };
 
 /// What came out, and what it took.

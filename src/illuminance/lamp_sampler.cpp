@@ -4,31 +4,15 @@
 #include <array>
 #include <cmath>
 
+#include "scene/soup_triangle.h"
+
 namespace tenku {
-namespace {
-
-std::array<Vec3, 3> corners_of(const TriangleSoup& soup, std::uint32_t triangle) {
-  const auto& [a, b, c] = soup.triangles[triangle];
-  return {soup.vertices[a], soup.vertices[b], soup.vertices[c]};
-}
-
-Vec3 middle_of(const TriangleSoup& soup, std::uint32_t triangle) {
-  const auto [a, b, c] = corners_of(soup, triangle);
-  return (1.0 / 3.0) * (a + b + c);
-}
-
-double area_of(const TriangleSoup& soup, std::uint32_t triangle) {
-  const auto [a, b, c] = corners_of(soup, triangle);
-  return 0.5 * length(cross(b - a, c - a));
-}
-
-}  // namespace
 
 LampSampler::LampSampler(const RayVisibility& rays) : rays_(rays) {
   const TriangleSoup& soup = rays.soup();
   for (std::uint32_t t = 0; t < soup.size(); ++t) {
     if (!(luminance_of(rays.materials()[soup.material[t]].emission_lm_m2) > 0.0)) continue;
-    if (!(area_of(soup, t) > 0.0)) continue;
+    if (!(area_m2(soup, t) > 0.0)) continue;
     triangle_.push_back(t);
   }
   if (triangle_.empty()) return;
@@ -70,7 +54,7 @@ LampSampler::Group LampSampler::group_of(std::uint32_t begin, std::uint32_t end)
   const TriangleSoup& soup = rays_.soup();
   Group group{begin, end, {}, 0.0, 0.0, 0.0};
   for (std::uint32_t k = begin; k < end; ++k) {
-    const double area = area_of(soup, triangle_[k]);
+    const double area = area_m2(soup, triangle_[k]);
     const Material& material = rays_.materials()[soup.material[triangle_[k]]];
     group.area_m2 += area;
     group.flux_lm += area * luminance_of(material.emission_lm_m2);

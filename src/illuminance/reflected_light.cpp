@@ -18,14 +18,14 @@ constexpr int kTrueSlices = 16;  // of a true value: not by result, which would 
 // Student's t over the normal quantile, squared: 15 and 7 degrees of freedom, at 95 %.
 constexpr double kWiden15 = 1.183, kWiden7 = 1.456;
 
+}  // namespace
+
 Vec3 cosine_direction(Vec3 normal, double u, double v) {
   const auto [tangent, bitangent] = tangent_frame(normal);
   const double radius = std::sqrt(u), turn = 2.0 * kPi * v;
   return normalized(radius * std::cos(turn) * tangent + radius * std::sin(turn) * bitangent +
                     std::sqrt(1.0 - u) * normal);
 }
-
-}  // namespace
 
 /// A place where a path meets a diffuse surface.
 struct ReflectedLight::Vertex {
@@ -51,6 +51,7 @@ ReflectedLight::ReflectedLight(Scene scene, int bounces, Vec3 position, Vec3 nor
     : rays_(scene.rays),
       cache_(scene.cache),
       lamps_(scene.lamps),
+      lamps_apart_(scene.lamps_apart),
       bounces_(bounces),
       origin_(position + scene.rays.lift_m() * normal),
       normal_(normal),
@@ -152,10 +153,11 @@ void ReflectedLight::trace_looked_up(int goal) {
       batch_sum_[batch] += lux;
       order_sum_[static_cast<std::size_t>(order)] += lux;
     };
-    if (bounces_ > 0) add(1, look_at_lamps(origin_, normal_, start, 0));
+    if (bounces_ > 0 && !lamps_apart_) add(1, look_at_lamps(origin_, normal_, start, 0));
     const auto at_hit = [&](const Leg& leg, const RayHit& hit) {
       const Material& lamp = rays_.materials()[rays_.soup().material[hit.triangle]];
       if (!(luminance_of(lamp.emission_lm_m2) > 0.0)) return;
+      if (lamps_apart_ && leg.order == 1 && leg.is_direct) return;
       add(leg.order,
           share_by_chance(leg, hit.triangle, hit.distance_m) * leg.weight * lamp.emission_lm_m2);
     };

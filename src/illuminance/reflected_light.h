@@ -11,6 +11,10 @@
 
 namespace tenku {
 
+/// Unit vector into the half space of a normal, with a density in proportion to the cosine.
+/// @param u, v  uniform in [0, 1)
+Vec3 cosine_direction(Vec3 normal, double u, double v);
+
 /// Illuminance of one sensor by one to `bounces` diffuse reflections, with its standard error.
 ///
 /// A path leaves the sensor in proportion to the cosine (Owen-scrambled Sobol) and goes on in the
@@ -39,6 +43,7 @@ class ReflectedLight {
     const RayVisibility& rays;
     SkyCache& cache;
     const LampSampler& lamps;
+    bool lamps_apart = false;  ///< light straight from lamps is left to `add_lamp_light`
   };
   ReflectedLight(Scene scene, int bounces, Vec3 position, Vec3 normal, SampleRandom random);
 
@@ -84,6 +89,7 @@ class ReflectedLight {
   const RayVisibility& rays_;
   SkyCache& cache_;
   const LampSampler& lamps_;
+  bool lamps_apart_;
   int bounces_;
   Vec3 origin_, normal_;
   std::uint64_t scramble_;

@@ -195,6 +195,28 @@ double SensorSky::unseen_share() {
   return (once + 1.0) / (static_cast<double>(met_.size()) + 1.0);
 }
 
+/// Floating parts that lie between slices.
+void SensorSky::find_unmet_parts() {
+  unmet_.assign(entry_.size(), 0.0);
+  if (sight_.table == nullptr || !effort_.outlined || sight_.rays.floating_parts().empty()) return;
+  for (const SliceTracer::SeenPart& part : tracer_.parts()) {
+    const auto from_first = [&](double azimuth) {
+      const double turns = (azimuth - at(0).azimuth) / (2.0 * kPi);
+      return at(0).azimuth + 2.0 * kPi * (turns - std::floor(turns));
+    };
+    const double azimuth = from_first(part.azimuth_rad);
+    const auto after = std::upper_bound(
+        entry_.begin(), entry_.end(), azimuth,
+        [](double value, const Entry& entry) { return value < entry.slice.azimuth; });
+    const auto gap = static_cast<std::size_t>(after - entry_.begin()) - 1;
+    const double left = azimuth - at(gap).azimuth, right = width_after(gap) - left;
+    if (std::min(left, right) < part.half_width_rad) continue;  // met
+    if (!at(gap).is_open && !at(gap + 1).is_open) continue;
+    const double lux = part.solid_angle / kPi * part.sine * sight_.table->horizontal_lux();
+    if (lux > 0.0) unmet_[gap] += square(lux) / 3.0;
+  }
+}
+
 /// Whether all that bounds the sky is among what the slices have met.
 bool SensorSky::is_whole() {
   if (!has_boundary_) {
@@ -271,7 +293,7 @@ double SensorSky::gap_variance(std::size_t i) const {
   const double width = width_after(i);
   if (!at(i).is_open && !at(i + 1).is_open) return 0.0;
   if (gap.is_blind) {
-    return square(gap.hole_width * gap.step) / 12.0 +
+    return unmet_[i] + square(gap.hole_width * gap.step) / 12.0 +
            unknown_variance(width, 2.0 * lesson_.miss_squared);
   }
   const auto miss_squared = [&](const Entry& entry) {
@@ -280,7 +302,7 @@ double SensorSky::gap_variance(std::size_t i) const {
                : lesson_.miss_squared;
   };
   const double known = width - gap.hole_width;
-  return lesson_.share_variance * square(gap.room.lux) +
+  return unmet_[i] + lesson_.share_variance * square(gap.room.lux) +
          unknown_variance(known,
                           miss_squared(entry_[i]) + miss_squared(entry_[(i + 1) % entry_.size()]));
 }
@@ -371,6 +393,7 @@ SensorSky::Sum SensorSky::even_sum() const {
   for (std::size_t i = 0; i < entry_.size(); ++i) {
     const SkySlice &left = at(before(i)), &here = at(i), &right = at(i + 1);
     sum.light = sum.light + pitch * here.light;
+    sum.variance += unmet_[i];
     const double bend = here.light.lux - 0.5 * (left.light.lux + right.light.lux);
     const bool was_on = is_left_on;
     is_left_on = goes_on(here, right);
@@ -430,6 +453,7 @@ SensorSky::Sum SensorSky::outlined_sum() const {
 void SensorSky::summarise(double enough) {
   seeing_ = static_cast<int>(
       std::count_if(entry_.begin(), entry_.end(), [](const Entry& e) { return e.slice.is_open; }));
+  find_unmet_parts();
   Sum sum;
   if (!is_outlined_) sum = even_sum();
   const bool is_enough = !is_outlined_ && sum.variance + checks_.lux_squared <= enough;

@@ -49,6 +49,8 @@ namespace tenku {
 ///          what they take away: kMissed of the mean test (smooth change: 1/6, thin things: 1;
 ///            measured in towns: 0.3 to 0.5), with a third of that as error, the less the
 ///            fewer tests have failed;
+///          floating parts that no slice has met, though it is known that they are there
+///            (`FloatingParts`): they hide nothing or all that they enclose, evenly;
 ///          tables and sums: kTable of the value, and `SkyTable::column_error`;
 ///          checks: rays at altitudes spread evenly measure what the slices missed.
 class SensorSky {
@@ -156,6 +158,7 @@ class SensorSky {
   void check(const SliceLight& light, int checks, double weight);
   Sum even_sum() const;
   double unseen_share();
+  void find_unmet_parts();
   bool is_whole();
   bool outlines_tell() const;
   Sum outlined_sum() const;
@@ -174,6 +177,7 @@ class SensorSky {
   std::optional<std::vector<BoundaryOutline>> boundary_;
   bool has_boundary_ = false;  ///< it has been looked for
   bool is_whole_ = false;      ///< the slices have met all of it
+  std::vector<double> unmet_;  ///< [slice], variance by floating parts in the gap after it, lux^2
   Lesson lesson_;
   CheckSums checks_;
   bool is_outlined_ = false, is_filled_ = false;

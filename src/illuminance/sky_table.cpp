@@ -11,11 +11,9 @@ namespace {
 
 constexpr double kHalfPi = kPi / 2.0;
 
-// Nodes and weights of the four-point Gauss-Legendre rule on [-1, 1].
-constexpr std::array<double, 4> kNode{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
-                                      0.8611363115940526};
-constexpr std::array<double, 4> kWeight{0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
-                                        0.3478548451374538};
+// Lobatto's rule of four points on [0, 1], two of which are the ends.
+constexpr std::array<double, 2> kInside{0.27639320225002103, 0.7236067977499790};
+constexpr double kEndWeight = 1.0 / 12.0, kInsideWeight = 5.0 / 12.0;
 
 constexpr float kSame = 1e-6F;  // of the largest value of a column
 
@@ -39,8 +37,16 @@ SkyTable::SkyTable(const SkyModel& sky)
       rows_per_rad_(rows_ / kHalfPi),
       node_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_ + 1) *
             kNodeFloats) {
+  std::vector<Altitude> altitude;
+  for (int row = 0; row < rows_; ++row) {
+    altitude.push_back(Altitude::of(row * row_rad_));
+    for (const double inside : kInside) altitude.push_back(Altitude::of((row + inside) * row_rad_));
+  }
+  altitude.push_back(Altitude::zenith());
   parallel_for(static_cast<std::size_t>(columns_), 8, [&](IndexRange range) {
-    for (std::size_t c = range.begin; c < range.end; ++c) fill_column(sky, static_cast<int>(c));
+    for (std::size_t c = range.begin; c < range.end; ++c) {
+      fill_column(sky, altitude, static_cast<int>(c));
+    }
   });
   drop_equal_columns();
   find_column_errors();
@@ -89,28 +95,28 @@ double SkyTable::column_error(double azimuth_rad, double width_rad) const {
   return to > from ? (sum_to(to) - sum_to(from)) / (to - from) : 0.0;
 }
 
-void SkyTable::fill_column(const SkyModel& sky, int column) {
+void SkyTable::fill_column(const SkyModel& sky, std::span<const Altitude> altitude, int column) {
   const double azimuth = 2.0 * kPi * column / columns_;
-  const auto luminance = [&](double altitude) {
-    return sky.luminance(direction_from(Angle::radians(azimuth), Angle::radians(altitude))).value();
+  const double east = std::sin(azimuth), north = std::cos(azimuth);
+  const auto moments = [&](const Altitude& at) {
+    const Vec3 direction{at.cosine * east, at.cosine * north, at.sine};
+    const double weighted = row_rad_ * at.cosine * sky.luminance(direction).value();
+    return SliceMoments{weighted * at.cosine, weighted * at.sine};
   };
-  double along = 0.0, up = 0.0;
-  for (int row = 0; row <= rows_; ++row) {
-    const double altitude = std::min(row * row_rad_, kHalfPi);
-    const double c = std::cos(altitude), s = std::sin(altitude), l = luminance(altitude);
-    float* node = &node_[(static_cast<std::size_t>(column) * static_cast<std::size_t>(rows_ + 1) +
-                          static_cast<std::size_t>(row)) *
-                         kNodeFloats];
-    node[0] = static_cast<float>(along);
-    node[1] = static_cast<float>(l * c * c * row_rad_);
-    node[2] = static_cast<float>(up);
-    node[3] = static_cast<float>(l * s * c * row_rad_);
-    for (std::size_t k = 0; k < kNode.size() && row < rows_; ++k) {
-      const double at = altitude + 0.5 * row_rad_ * (1.0 + kNode[k]);
-      const double weighted = 0.5 * row_rad_ * kWeight[k] * luminance(at);
-      along += weighted * std::cos(at) * std::cos(at);
-      up += weighted * std::sin(at) * std::cos(at);
-    }
+  SliceMoments sum, here = moments(altitude[0]);
+  float* node =
+      &node_[static_cast<std::size_t>(column) * static_cast<std::size_t>(rows_ + 1) * kNodeFloats];
+  for (std::size_t k = 0;; k += kInside.size() + 1, node += kNodeFloats) {
+    node[0] = static_cast<float>(sum.along);
+    node[1] = static_cast<float>(here.along);
+    node[2] = static_cast<float>(sum.up);
+    node[3] = static_cast<float>(here.up);
+    if (k + 1 == altitude.size()) return;
+    const SliceMoments low = moments(altitude[k + 1]), high = moments(altitude[k + 2]),
+                       next = moments(altitude[k + 3]);
+    sum.along += kEndWeight * (here.along + next.along) + kInsideWeight * (low.along + high.along);
+    sum.up += kEndWeight * (here.up + next.up) + kInsideWeight * (low.up + high.up);
+    here = next;
   }
 }
 

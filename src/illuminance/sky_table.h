@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
+#include "core/altitude.h"
 #include "sky_models/sky_model.h"
 
 namespace tenku {
@@ -63,7 +65,8 @@ class SkyTable {
  private:
   static constexpr int kNodeFloats = 4;  // along, its slope, up, its slope
 
-  void fill_column(const SkyModel& sky, int column);
+  /// @param altitude  of the rows, and of two points inside between each and the next
+  void fill_column(const SkyModel& sky, std::span<const Altitude> altitude, int column);
   void drop_equal_columns();
   void find_column_errors();
 

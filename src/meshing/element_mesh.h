@@ -7,8 +7,20 @@
 #include <vector>
 
 #include "core/vec3.h"
+#include "scene/material.h"
 
 namespace tenku {
+
+/// Glass between surfaces: it has no elements, but light between them loses what it holds back.
+///
+/// Shape    `corner` and `material` [triangle].
+struct MeshPanes {
+  std::vector<std::array<Vec3, 3>> corner;
+  std::vector<std::uint32_t> material;  ///< index into `materials`
+  std::vector<Material> materials;
+
+  bool empty() const { return corner.empty(); }
+};
 
 /// Flat pieces of surface with two faces each.
 ///
@@ -26,6 +38,7 @@ struct ElementMesh {
   std::vector<std::uint32_t> material;        ///< of each element
   std::vector<std::uint32_t> object;          ///< of each element, index into `Scene::objects`
   std::vector<std::uint32_t> patch_begin{0};  ///< first element of each patch, and the end
+  MeshPanes panes;
 
   std::size_t size() const { return elements.size(); }
   std::size_t patches() const { return patch_begin.size() - 1; }

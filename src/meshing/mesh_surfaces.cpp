@@ -12,6 +12,7 @@
 #include "core/parallel.h"
 #include "meshing/flat_polygon.h"
 #include "meshing/mesh_pieces.h"
+#include "meshing/mesh_soup.h"
 #include "meshing/polygon_mesh.h"
 #include "meshing/surface_checks.h"
 #include "meshing/surface_flaw.h"
@@ -223,6 +224,7 @@ MeshedScene mesh_scene(const Scene& scene, const TriangleSoup& soup, const MeshO
   flaws.insert(flaws.end(), more.begin(), more.end());
   MeshedScene made{std::move(meshed.mesh), meshed.sizes, findings_of(flaws, scene),
                    std::move(meshed.surfaces.polygons), std::move(meshed.polygon_of)};
+  made.mesh.panes = panes_of(soup, scene.materials);
   if (options.elements_max > 0 && made.mesh.size() > options.elements_max) {
     made.findings.push_back(too_many(options.elements_max, made.polygons.size(), made.mesh.size()));
   }
@@ -232,7 +234,9 @@ MeshedScene mesh_scene(const Scene& scene, const TriangleSoup& soup, const MeshO
 ElementMesh mesh_surfaces(const TriangleSoup& soup, std::span<const Material> materials,
                           const MeshOptions& options) {
   check(soup, materials, options);
-  return Mesher(soup, materials).meshed(options).mesh;
+  ElementMesh mesh = Mesher(soup, materials).meshed(options).mesh;
+  mesh.panes = panes_of(soup, materials);
+  return mesh;
 }
 
 }  // namespace tenku

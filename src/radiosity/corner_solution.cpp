@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::size_t kMostSweeps = 100, kGrain = 16;
 constexpr double kDarkShare = 0.3;  // of the brightest corner: less is inside of something
-constexpr double kNear = 0.3, kWideView = 0.03, kDoubt = 0.05, kCurved = 0.4;
+constexpr double kNear = 0.3, kDoubt = 0.05, kCurved = 0.4;
+constexpr float kWideView = 0.03F;
 
 double lum(Rgb c) { return luminance_of(c); }
 
@@ -47,10 +48,13 @@ class CornerSolver {
   }
 
   CornerLight solve(const Progress& progress) {
-    do {
+    for (;;) {
       progress.stop_if_cancelled();
+      const std::vector<Rgb> before = light_.radiosity;
       sweep();
-    } while (!is_enough());
+      if (is_enough()) break;
+      go_on(before);
+    }
     find_errors();
     return std::move(light_);
   }
@@ -73,6 +77,11 @@ class CornerSolver {
         light_.open.push_back(open_corners(corner, gathered_));
       }
     }
+    if (steady_.empty()) {
+      for (std::size_t s = 0; s < light_.radiosity.size(); ++s) {
+        steady_.push_back(steady_mean_lux(s));
+      }
+    }
     for (std::size_t s = 0; s < light_.radiosity.size(); ++s) {
       if (is_lit_[problem_.points.corner[s][0]] == 0) continue;
       const Rgb now = surfaces.emission_lm_m2[s / 2] + surfaces.reflectance[s / 2] * mean_lux(s);
@@ -81,6 +90,30 @@ class CornerSolver {
     }
     light_.convergence_lux = change / (1.0 - surfaces.most_reflectance);
     ++light_.sweeps;
+  }
+
+  /// Changes that shrink by r a sweep add up to r / (1 - r) of the last. Where they do not, the
+  /// next sweep's change tells: it bounds the error wherever that sweep begins.
+  void go_on(const std::vector<Rgb>& before) {
+    std::vector<Rgb> change(before.size());
+    double both = 0.0, square = 0.0;
+    for (std::size_t s = 0; s < change.size(); ++s) {
+      change[s] = light_.radiosity[s] + -1.0 * before[s];
+      if (change_.empty()) continue;
+      both += lum(change[s] * change_[s]);
+      square += lum(change_[s] * change_[s]);
+    }
+    if (change_.empty()) {
+      change_ = std::move(change);
+      return;
+    }
+    const double shrinks =
+        std::clamp(square > 0.0 ? both / square : 0.0, 0.0, problem_.surfaces.most_reflectance);
+    const double more = shrinks / (1.0 - shrinks);
+    for (std::size_t s = 0; s < change.size(); ++s) {
+      light_.radiosity[s] = light_.radiosity[s] + more * change[s];
+    }
+    change_.clear();
   }
 
   template <class At>
@@ -93,14 +126,17 @@ class CornerSolver {
   }
 
   Rgb mean_lux(std::size_t side) const {
+    return steady_[side] + mean_of_open(side, [&](std::uint32_t i) { return gathered_[i]; });
+  }
+
+  /// What no sweep changes of the mean light of a side.
+  Rgb steady_mean_lux(std::size_t side) const {
     const DaylightOnSides& daylight = problem_.daylight;
     const Rgb at_corners = mean_of_open(side, [&](std::uint32_t i) { return steady(i); });
     const Rgb in_middle = Rgb::grey(daylight.middle_lux[side]) + middle_of_lamps(side);
     const bool is_hidden = light_.open[side] != kAllOpen && !(lum(in_middle) > 0.0);
-    return mean_of_open(side, [&](std::uint32_t i) { return gathered_[i]; }) +
-           (is_hidden || problem_.lamps.has_middle[side] == 0
-                ? at_corners
-                : 0.25 * at_corners + 0.75 * in_middle);
+    return is_hidden || problem_.lamps.has_middle[side] == 0 ? at_corners
+                                                             : 0.25 * at_corners + 0.75 * in_middle;
   }
 
   /// Light at a corner that no sweep changes.
@@ -147,14 +183,6 @@ class CornerSolver {
     for (std::size_t i = 0; i < points.size(); ++i) {
       light_.variance[i] += lamp_scale * lamp_scale * lamps.corner[i].variance;
     }
-    light_.mesh_lux.assign(points.size(), 0.0);
-    std::vector<std::array<double, PointGather::kLooks>> mesh_part(points.size());
-    gather_.for_rows(is_lit_, [&](std::size_t i, std::size_t look, const FormFactorRow& row) {
-      mesh_part[i][look] = mesh_error_lux(row, light_.spread, light_.uneven);
-    });
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      light_.mesh_lux[i] = 0.5 * (mesh_part[i][0] + mesh_part[i][1]);
-    }
   }
 
   const CornerProblem& problem_;
@@ -163,6 +191,8 @@ class CornerSolver {
   CornerLight light_;
   std::vector<PointGather::Looks> looks_;  ///< [point]
   std::vector<Rgb> gathered_;              ///< [point], by rows
+  std::vector<Rgb> steady_;                ///< [element side], mean that no sweep changes, lux
+  std::vector<Rgb> change_;  ///< [element side], of the sweep before; empty: begin anew
 };
 
 }  // namespace
@@ -236,14 +266,36 @@ CornerLight solve_at_corners(const CornerProblem& problem, const PointGather& ga
   return CornerSolver(problem, gather, std::move(start), is_lit).solve(progress);
 }
 
-double mesh_error_lux(const FormFactorRow& row, std::span<const double> spread,
-                      std::span<const double> uneven) {
-  double sum = 0.0;
-  for (const FormFactor& f : row) {
-    const double wide = f.value / (f.value + kWideView);
-    sum += f.value * (kNear * wide * spread[f.side] + kDoubt * uneven[f.side]);
+std::vector<double> mesh_errors_lux(const CornerLight& light, const PointGather& gather,
+                                    std::span<const std::uint8_t> is_lit) {
+  std::vector<std::array<double, PointGather::kLooks>> of_look(is_lit.size());
+  const std::vector<MeshDoubt> doubts = mesh_doubts(light);
+  gather.for_rows(is_lit, [&](std::size_t i, std::size_t look, const FormFactorRow& row) {
+    of_look[i][look] = mesh_error_lux(row, doubts);
+  });
+  std::vector<double> errors;
+  errors.reserve(of_look.size());
+  for (const auto& [one, other] : of_look) errors.push_back(0.5 * (one + other));
+  return errors;
+}
+
+std::vector<MeshDoubt> mesh_doubts(const CornerLight& light) {
+  std::vector<MeshDoubt> doubts;
+  doubts.reserve(light.spread.size());
+  for (std::size_t s = 0; s < light.spread.size(); ++s) {
+    doubts.push_back({static_cast<float>(kNear * light.spread[s]),
+                      static_cast<float>(kDoubt * light.uneven[s])});
   }
-  return sum;
+  return doubts;
+}
+
+double mesh_error_lux(const FormFactorRow& row, std::span<const MeshDoubt> of_side) {
+  float sum = 0.0F;
+  for (const FormFactor& f : row) {
+    const float wide = f.value / (f.value + kWideView);
+    sum += f.value * (wide * of_side[f.side].near + of_side[f.side].anywhere);
+  }
+  return static_cast<double>(sum);
 }
 
 std::vector<double> pooled_variance(std::span<const PointGather::Looks> looks,

@@ -39,15 +39,15 @@ struct CornerProblem {
   const LampsOnMesh& lamps;
   double lamp_scale;  ///< of what surfaces emit: `surfaces` have it in them, `lamps` have not
   const DaylightOnSides& daylight;
-  double enough_pct;  ///< of the light in dim places: what sweeps may leave
+  double enough_pct;  ///< of the light in dim places: what sweeps may leave; infinite: one sweep
 };
 
 /// Light at corners and what sides send by it.
 struct CornerLight {
-  std::vector<Rgb> lux;            ///< [point], all but daylight straight from sun and sky
-  std::vector<double> variance;    ///< [point], lux^2: of form factors and lamps
-  std::vector<double> mesh_lux;    ///< [point], half-width: of what sides send
-  std::vector<Rgb> radiosity;      ///< [element side], lm/m2
+  std::vector<Rgb> lux;          ///< [point], all but daylight straight from sun and sky
+  std::vector<double> variance;  ///< [point], lux^2: of form factors and lamps
+  std::vector<double> mesh_lux;  ///< [point], half-width: by `mesh_errors_lux`, once all is settled
+  std::vector<Rgb> radiosity;    ///< [element side], lm/m2
   std::vector<std::uint8_t> open;  ///< [element side], bits of the corners that count
   std::vector<double> spread;      ///< [element side], lm/m2: radiosity between corners, at most
   std::vector<double> uneven;      ///< [element side], lm/m2: doubt of the mean radiosity
@@ -56,7 +56,8 @@ struct CornerLight {
 };
 
 /// Corners gather what sides send, sides send what their corners and middles receive, until that
-/// changes little: collocation, solved by Jacobi's iteration from `start`.
+/// changes little: collocation, solved by Jacobi's iteration from `start`. After every other sweep
+/// what sides send goes on by as much as its last changes, in proportion, would add up to.
 ///
 /// The mean of a side is that of its corners, of daylight and lamps a quarter of it and three
 /// quarters of the middle. A corner without any light beside lit ones is inside of something that
@@ -78,9 +79,21 @@ CornerLight solve_at_corners(const CornerProblem& problem, const PointGather& ga
                              CornerLight start, std::span<const std::uint8_t> is_lit,
                              Progress& progress);
 
+/// What a side adds to the error of a row in parts of its form factor, lm/m2: where it fills the
+/// view of the point, and anywhere.
+struct MeshDoubt {
+  float near = 0.0F, anywhere = 0.0F;
+};
+std::vector<MeshDoubt> mesh_doubts(const CornerLight& light);
+
+/// Half-widths of corners.
+/// @return  [point]
+std::vector<double> mesh_errors_lux(const CornerLight& light, const PointGather& gather,
+                                    std::span<const std::uint8_t> is_lit);
+
 /// Half-width for one row: see the above.
-double mesh_error_lux(const FormFactorRow& row, std::span<const double> spread,
-                      std::span<const double> uneven);
+/// @param of_side  [element side]
+double mesh_error_lux(const FormFactorRow& row, std::span<const MeshDoubt> of_side);
 
 /// Variance of each mean of two looks, lux^2: half its own draw and half that of its group in
 /// proportion, and no less than the latter.

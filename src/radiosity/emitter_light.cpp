@@ -11,7 +11,6 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "form_factors/contour_factor.h"
-#include "meshing/mesh_soup.h"
 
 namespace tenku {
 namespace {
@@ -77,7 +76,7 @@ EmitterLight::EmitterLight(const ElementMesh& mesh, const SidePoints& points,
     return;
   }
   soup_ = soup_of(mesh);
-  rays_ = std::make_unique<RayVisibility>(soup_, materials_);
+  rays_ = std::make_unique<RayVisibility>(soup_.soup, soup_.materials);
 }
 
 void EmitterLight::find_lamps(const SidePoints& points, const SurfaceLight& surfaces) {
@@ -166,7 +165,9 @@ double EmitterLight::seen(std::uint32_t number, Vec3 position, Vec3 normal, int 
   double all = 0.0, lit = 0.0;
   for (std::size_t k = 0; k < met.size(); ++k) {
     all += weight[k];
-    if (!hides(met[k], number, point[k], length(point[k] - position))) lit += weight[k];
+    const double away = length(point[k] - position);
+    if (hides(met[k], number, point[k], away)) continue;
+    lit += weight[k] * rays_->glass_transmission(position, direction[k], away);
   }
   return all > 0.0 ? lit / all : 0.0;
 }

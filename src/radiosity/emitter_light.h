@@ -11,9 +11,9 @@
 #include "core/rgb.h"
 #include "illuminance/sensor.h"
 #include "meshing/element_mesh.h"
+#include "meshing/mesh_soup.h"
 #include "radiosity/side_points.h"
 #include "radiosity/surface_light.h"
-#include "scene/triangle_soup.h"
 #include "visibility/ray_visibility.h"
 
 namespace tenku {
@@ -91,8 +91,7 @@ class EmitterLight {
 
   const ElementMesh& mesh_;
   std::uint64_t seed_;
-  TriangleSoup soup_;
-  std::vector<Material> materials_{1};
+  MeshSoup soup_;
   std::unique_ptr<RayVisibility> rays_;
   std::vector<Lamp> lamp_;
   std::vector<std::uint32_t> lamp_of_;  ///< [element]

@@ -31,11 +31,11 @@ std::vector<double> FormerLights::factors(std::span<const double> source,
   std::array<double, kMost> square{}, right{};
   for (std::size_t i = 0; i < n; ++i) {
     right[i] = product(weight, former_[i].source, source);
-    const double whole = product(weight, former_[i].source, former_[i].source);
+    const double whole = former_[i].product[i];
     square[i] = whole;
     for (std::size_t j = 0; j < i; ++j) {
       if (!(square[j] > 0.0)) continue;
-      double sum = product(weight, former_[i].source, former_[j].source);
+      double sum = former_[i].product[j];
       for (std::size_t k = 0; k < j; ++k) sum -= lower[i][k] * lower[j][k] * square[k];
       lower[i][j] = sum / square[j];
       square[i] -= lower[i][j] * sum;
@@ -76,9 +76,15 @@ void FormerLights::keep(std::vector<double> source, std::span<const double> weig
   }
   const double whole = product(weight, source, source);
   if (!(product(weight, rest, rest) > kSame * kSame * whole)) return;
-  if (former_.size() == kMost) former_.erase(former_.begin());
+  if (former_.size() == kMost) {
+    former_.erase(former_.begin());
+    for (Former& former : former_) former.product.erase(former.product.begin());
+  }
   Former& next = former_.emplace_back();
   next.source = std::move(source);
+  for (const Former& former : former_) {
+    next.product.push_back(product(weight, former.source, next.source));
+  }
   next.start.sent.received = shots.sides.received;
   next.start.sent.escaped_lm = shots.balance.escaped_lm;
   add(next.start.sent.radiosity, 1.0, shots.sides.radiosity);

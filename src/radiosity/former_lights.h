@@ -40,6 +40,7 @@ class FormerLights {
  private:
   struct Former {
     std::vector<double> source;
+    std::vector<double> product;  ///< of the source with those up to its own
     LightStart start;
   };
   /// Factors on the former lights that make up the most of a source.

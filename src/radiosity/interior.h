@@ -116,8 +116,9 @@ class Interior {
   std::vector<std::uint8_t> lit_points(const SideRadiosity& sides,
                                        const DaylightOnSides& direct) const;
   const LampsOnMesh& lamps_on(std::span<const std::uint8_t> is_lit);
-  /// Corners whose form factors are less exact than the tolerance.
-  std::vector<std::uint8_t> rough_points(const InteriorLight& light) const;
+  /// By how many steps corners have to look more finely to be within the tolerance [point].
+  /// @param margin  on the tolerance
+  std::vector<std::uint8_t> rough_points(const InteriorLight& light, double margin) const;
   void tell_leaks(InteriorLight& light);
   void tell_refused(std::vector<Finding>& findings) const;
 
@@ -131,6 +132,7 @@ class Interior {
   PointGather gather_;
   EmitterLight emitters_;
   KeptDaylight daylight_;
+  bool has_light_ = false;  ///< whether corners look as finely as one light has asked for
   FormerLights former_;
   std::optional<std::vector<std::uint8_t>> is_open_;  ///< [point], once it is known
   std::vector<float> enclosure_;  ///< [point], share of its view that surfaces fill, likewise

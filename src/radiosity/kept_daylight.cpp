@@ -13,17 +13,23 @@
 #include "illuminance/outline_gap.h"
 #include "illuminance/sensor_cells.h"
 #include "illuminance/sensor_sun.h"
+#include "sky_models/cie_general_sky.h"
 #include "visibility/slice_tracer.h"
 
 namespace tenku {
 namespace {
 
+constexpr std::size_t kLightGrain = 256;          // the same where a sensor costs little
 constexpr std::size_t kGrain = 16;                // sensors a task
 constexpr int kFirst = 16, kMost = 4096;          // slices in a turn
 constexpr int kMostInDark = 256;                  // where none has seen the sky
 constexpr int kFine = 64;                         // in a turn, where the sky is seen, at least
 constexpr int kEnough = 32;                       // that see the sky
 constexpr double kOtherwise = 0.2;                // of what is missed, as measured in a room
+constexpr int kFiner = 4;                         // times as many slices, where trials ask for it
+constexpr std::uint8_t kFinest = 2;               // times that
+constexpr int kTrials = 6;                        // clear skies, by which that is found
+constexpr double kTrialSun_deg = 35.0;            // altitude
 constexpr std::uint64_t kStream = 0x6b657074ULL;  // of the random start of slices
 
 /// The slices of one sensor, more and more where it sees the sky.
@@ -35,13 +41,14 @@ class SeenSlices {
     std::vector<SeenPiece> piece;
   };
 
-  SeenSlices(const RayVisibility& rays, const SkyTable& sky, Vec3 position, Vec3 normal,
-             double start)
-      : sight_{rays, &sky, position + rays.lift_m() * normal, normal},
+  /// @param finer  by which factor more slices than usual
+  SeenSlices(const RayVisibility& rays, Vec3 position, Vec3 normal, double start, int finer)
+      : sight_{rays, nullptr, position + rays.lift_m() * normal, normal},
         tracer_(rays, sight_.origin) {
     for (int k = 0; k < kFirst; ++k) add(start + 2.0 * kPi * k / kFirst, slice_);
     int turn = kFirst;
-    while (turn < (seeing() > 0 ? kMost : kMostInDark) && (turn < kFine || seeing() < kEnough)) {
+    while (turn < (seeing() > 0 ? finer * kMost : kMostInDark) &&
+           (turn < finer * kFine || seeing() < finer * kEnough)) {
       refine();
       turn *= 2;
     }
@@ -106,18 +113,19 @@ double usual_variance(std::vector<double> squares) {
 }
 
 bool is_kept(const DaylightSource& source) {
-  return source.sky != nullptr && source.elements == nullptr && source.sky->horizontal_lux() > 0.0;
+  return source.sky != nullptr && source.model != nullptr && source.elements == nullptr &&
+         source.sky->horizontal_lux() > 0.0;
 }
 
 }  // namespace
 
 IlluminanceResult KeptDaylight::light(const Sensors& sensors, const DaylightMethod& daylight,
                                       Progress& progress) {
-  if (!begin_.empty() && is_kept(daylight.source)) return taken_over(sensors, daylight, progress);
+  if (weights_ && is_kept(daylight.source)) return taken_over(sensors, daylight, progress);
   IlluminanceResult found = illuminate(sensors, daylight.engines, daylight.source, daylight.options,
                                        daylight.method, progress);
   found_anew_ = sensors.size();
-  if (keeps_ && begin_.empty() && is_kept(daylight.source)) {
+  if (keeps_ && !weights_ && is_kept(daylight.source)) {
     keep(sensors, daylight, found, progress);
   }
   return found;
@@ -127,62 +135,104 @@ void KeptDaylight::keep(const Sensors& sensors, const DaylightMethod& daylight,
                         IlluminanceResult first, Progress& progress) {
   first_ = std::move(first.values);
   first_horizontal_lux_ = daylight.source.sky->horizontal_lux();
-  progress.begin("what sensors see of the sky", sensors.size());
-  std::vector<std::vector<Piece>> seen(sensors.size());
-  parallel_for(sensors.size(), kGrain, [&](IndexRange range) {
+  const std::vector<std::uint8_t> everywhere(SkyGrid::kNodes, 1);
+  first_luminance_ = SkyGrid::luminances(*daylight.source.model, everywhere);
+  weights_.emplace(sensors.size());
+  seen_.resize(sensors.size());
+  std::unordered_map<std::uint64_t, std::uint32_t> plane;
+  std::vector<std::uint32_t> that_see;
+  for (std::uint32_t i = 0; i < sensors.size(); ++i) {
+    const auto next = static_cast<std::uint32_t>(plane.size());
+    const std::uint64_t key = plane_of(sensors.normal[i], sensors.position[i]);
+    seen_[i].plane = plane.emplace(key, next).first->second;
+    if (first_.sky_lux[i] > 0.0) that_see.push_back(i);
+  }
+  planes_ = static_cast<std::uint32_t>(plane.size());
+  keep_looks(sensors, that_see, daylight, progress);
+  for (std::uint8_t k = 0; k < kFinest; ++k) {
+    const std::vector<std::uint32_t> rough = rough_in_trials(daylight.options);
+    for (const std::uint32_t i : rough) ++seen_[i].fineness;
+    keep_looks(sensors, rough, daylight, progress);
+  }
+}
+
+/// Sensors that would be found anew under clear skies.
+std::vector<std::uint32_t> KeptDaylight::rough_in_trials(const IlluminanceOptions& options) const {
+  std::vector<std::uint8_t> is_rough(seen_.size());
+  for (int k = 0; k < kTrials; ++k) {
+    const Vec3 sun =
+        direction_from(Angle::degrees(360.0 / kTrials * k), Angle::degrees(kTrialSun_deg));
+    const auto luminance =
+        SkyGrid::luminances(CieGeneralSky(12, sun, Luminance(1.0)), weights_->is_used());
+    const ErrorBudget budget(options.tolerance_pct, 0.0);
+    const std::vector<Times> all = times_of_all(luminance);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (!all[i].is_known) continue;
+      const double lux = all[i].mean * first_.sky_lux[i];
+      const double error = std::hypot(all[i].mean * first_.error_lux[i],
+                                      interval_lux(all[i].variance * lux * lux, 0.0));
+      is_rough[i] |= error > budget.allowed_lux(lux);
+    }
+  }
+  std::vector<std::uint32_t> rough;
+  for (std::uint32_t i = 0; i < is_rough.size(); ++i) {
+    if (is_rough[i] != 0) rough.push_back(i);
+  }
+  return rough;
+}
+
+void KeptDaylight::keep_looks(const Sensors& sensors, std::span<const std::uint32_t> which,
+                              const DaylightMethod& daylight, Progress& progress) {
+  progress.begin("what sensors see of the sky", which.size());
+  std::vector<Looked> looked(which.size());
+  parallel_for(which.size(), kGrain, [&](IndexRange range) {
     progress.stop_if_cancelled();
-    for (std::size_t i = range.begin; i < range.end; ++i) {
-      if (first_.sky_lux[i] > 0.0) seen[i] = look(sensors, i, daylight);
+    for (std::size_t k = range.begin; k < range.end; ++k) {
+      looked[k] = look(sensors, which[k], daylight);
     }
     progress.advance(range.end - range.begin);
   });
-  begin_ = {0};
-  for (const std::vector<Piece>& pieces : seen) {
-    piece_.insert(piece_.end(), pieces.begin(), pieces.end());
-    begin_.push_back(piece_.size());
+  for (std::size_t k = 0; k < which.size(); ++k) {
+    weights_->set(which[k], looked[k].row);
+    Seen& seen = seen_[which[k]];
+    seen.first_lux = weights_->lux(which[k], first_luminance_);
+    seen.is_enough = looked[k].is_enough && seen.first_lux[0] > 0.0 && seen.first_lux[1] > 0.0;
   }
-  progress.end(std::to_string(piece_.size()) + " pieces");
+  progress.end(std::to_string(weights_->size()) + " weights");
 }
 
-std::vector<KeptDaylight::Piece> KeptDaylight::look(const Sensors& sensors, std::size_t i,
-                                                    const DaylightMethod& daylight) const {
+KeptDaylight::Looked KeptDaylight::look(const Sensors& sensors, std::size_t i,
+                                        const DaylightMethod& daylight) const {
   const Vec3 normal = sensors.normal[i];
-  const SkyTable& sky = *daylight.source.sky;
-  const double start = 2.0 * kPi * SampleRandom(daylight.options.seed ^ kStream, i, 0).uniform();
-  const SeenSlices seen(daylight.engines.rays(), sky, sensors.position[i], normal, start);
-  std::vector<Piece> pieces;
-  std::uint32_t number = 0;
+  SampleRandom random(daylight.options.seed ^ kStream, i, seen_[i].fineness);
+  const double start = 2.0 * kPi * random.uniform();
+  int finer = 1;
+  for (std::uint8_t k = 0; k < seen_[i].fineness; ++k) finer *= kFiner;
+  const SeenSlices seen(daylight.engines.rays(), sensors.position[i], normal, start, finer);
+  Looked looked;
+  int number = 0;
   for (std::size_t k = 0; k < seen.slices().size(); ++k) {
     const auto& slice = seen.slices()[k];
     if (slice.piece.empty()) continue;
-    const SkyTable::Column column = sky.column(slice.azimuth);
+    // Two halves of the slices, a b b a a b b a: a slope over what is seen is in both alike.
+    const auto half = static_cast<std::size_t>((number + 1) / 2 % 2);
     for (const SeenPiece& p : slice.piece) {
-      const SliceMoments m = column.to(p.high.radians) - column.to(p.low.radians);
-      const double weight = seen.width(k) * p.transmittance;
-      const double lux = weight * (slice.toward * m.along + normal.z * m.up);
-      pieces.push_back({static_cast<float>(slice.azimuth), static_cast<float>(slice.toward),
-                        static_cast<float>(weight), static_cast<float>(p.low.radians),
-                        static_cast<float>(p.high.radians), static_cast<float>(lux), number});
+      add_range({slice.azimuth, slice.toward, normal.z, seen.width(k) * p.transmittance,
+                 p.low.radians, p.high.radians},
+                random, half, looked.row);
     }
     ++number;
   }
-  return pieces;
+  looked.is_enough = number >= kFewestSeeing;
+  return looked;
 }
 
-KeptDaylight::Times KeptDaylight::times(std::size_t sensor, double up, const SkyTable& sky) const {
-  // Two halves of the slices, a b b a a b b a: a slope over what is seen is in both alike.
-  std::array<double, 2> first{}, now{};
-  std::uint32_t last = 0;
-  for (std::size_t k = begin_[sensor]; k < begin_[sensor + 1]; ++k) {
-    const Piece& p = piece_[k];
-    const SkyTable::Column column = sky.column(p.azimuth_rad);
-    const SliceMoments m = column.to(p.high_rad) - column.to(p.low_rad);
-    const std::size_t half = (p.slice + 1) / 2 % 2;
-    first[half] += p.first_lux;
-    now[half] += p.weight_rad * (p.toward * m.along + up * m.up);
-    last = p.slice;
-  }
-  if (last + 1 < kFewestSeeing || !(first[0] > 0.0 && first[1] > 0.0)) return {};
+KeptDaylight::Times KeptDaylight::times(std::size_t sensor,
+                                        std::span<const float> luminance) const {
+  const Seen& seen = seen_[sensor];
+  if (!seen.is_enough) return {};
+  const auto& first = seen.first_lux;
+  const auto now = weights_->lux(sensor, luminance);
   Times times;
   times.mean = (now[0] + now[1]) / (first[0] + first[1]);
   times.is_known = times.mean > 0.0;
@@ -195,34 +245,33 @@ KeptDaylight::Times KeptDaylight::times(std::size_t sensor, double up, const Sky
 }
 
 /// One difference tells little of its own size: those of a plane tell the rest.
-std::vector<KeptDaylight::Times> KeptDaylight::times_of_all(const Sensors& sensors,
-                                                            const SkyTable& sky) const {
-  std::vector<Times> all(sensors.size());
-  std::vector<std::uint64_t> plane(sensors.size());
-  parallel_for(sensors.size(), kGrain, [&](IndexRange range) {
-    for (std::size_t i = range.begin; i < range.end; ++i) {
-      all[i] = times(i, sensors.normal[i].z, sky);
-      plane[i] = plane_of(sensors.normal[i], sensors.position[i]);
-    }
+std::vector<KeptDaylight::Times> KeptDaylight::times_of_all(
+    std::span<const float> luminance) const {
+  std::vector<Times> all(seen_.size());
+  parallel_for(seen_.size(), kLightGrain, [&](IndexRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) all[i] = times(i, luminance);
   });
-  std::unordered_map<std::uint64_t, std::vector<double>> draws;
+  std::vector<std::vector<double>> draws(planes_);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].is_known) draws[plane[i]].push_back(all[i].variance);
+    if (all[i].is_known) draws[seen_[i].plane].push_back(all[i].variance);
   }
-  std::unordered_map<std::uint64_t, double> usual;
-  for (auto& [of_plane, squares] : draws) usual[of_plane] = usual_variance(std::move(squares));
+  std::vector<double> usual(planes_);
+  for (std::size_t p = 0; p < planes_; ++p) {
+    if (!draws[p].empty()) usual[p] = usual_variance(std::move(draws[p]));
+  }
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].is_known) all[i].variance = 0.5 * (usual[plane[i]] + all[i].variance);
+    if (all[i].is_known) all[i].variance = 0.5 * (usual[seen_[i].plane] + all[i].variance);
   }
   return all;
 }
 
 IlluminanceResult KeptDaylight::taken_over(const Sensors& sensors, const DaylightMethod& daylight,
                                            Progress& progress) {
-  expects(begin_.size() == sensors.size() + 1, "the sensors are those of the first sky");
+  expects(seen_.size() == sensors.size(), "the sensors are those of the first sky");
   const DaylightSource& source = daylight.source;
   const RayVisibility& rays = daylight.engines.rays();
-  const std::vector<Times> all = times_of_all(sensors, *source.sky);
+  const std::vector<Times> all =
+      times_of_all(SkyGrid::luminances(*source.model, weights_->is_used()));
   const double of_horizon = source.sky->horizontal_lux() / first_horizontal_lux_;
   const ErrorBudget budget(daylight.options.tolerance_pct,
                            daylight.options.floor_share * source.unobstructed_lux());
@@ -231,7 +280,7 @@ IlluminanceResult KeptDaylight::taken_over(const Sensors& sensors, const Dayligh
   result.is_missed.resize(sensors.size());
   std::vector<std::uint64_t> sent(sensors.size());
   progress.begin("daylight taken over", sensors.size());
-  parallel_for(sensors.size(), kGrain, [&](IndexRange range) {
+  parallel_for(sensors.size(), kLightGrain, [&](IndexRange range) {
     progress.stop_if_cancelled();
     for (std::size_t i = range.begin; i < range.end; ++i) {
       // Of what sees nearly nothing, hardly anything is known: all of it may be wrong.

@@ -160,9 +160,8 @@ LightLeak leak_of(const std::vector<Passage>& opening, double all_light) {
 std::vector<LightLeak> find_light_leaks(const ElementMesh& mesh, const Sensors& points,
                                         std::span<const double> light, double lift_m,
                                         std::uint64_t seed) {
-  const TriangleSoup soup = soup_of(mesh);
-  const std::vector<Material> materials(1);
-  const RayVisibility rays(soup, materials);
+  const MeshSoup made = soup_of(mesh);
+  const RayVisibility rays(made.soup, made.materials);
   std::vector<std::size_t> from;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (light[i] > 0.0) from.push_back(i);

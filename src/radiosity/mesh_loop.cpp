@@ -128,6 +128,7 @@ bool MeshLoop::remesh() {
 
 void MeshLoop::take(std::vector<MeshPiece> pieces) {
   AssembledMesh all = assembled(polygons_, pieces);
+  all.mesh.panes = mesh_->panes;
   interior_.reset();
   mesh_ = std::make_unique<ElementMesh>(std::move(all.mesh));
   polygon_of_ = std::move(all.polygon_of);

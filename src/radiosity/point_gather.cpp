@@ -9,9 +9,15 @@
 namespace tenku {
 namespace {
 
-constexpr std::size_t kGrain = 8;     // points a task
-constexpr std::size_t kChunk = 8192;  // rows between two looks at the memory
+constexpr std::size_t kGrain = 8;      // rows to find a task
+constexpr std::size_t kRowGrain = 64;  // points a task that have them
+constexpr std::size_t kChunk = 8192;   // rows between two looks at the memory
 constexpr std::uint64_t kSecondSeed = 0x9e3779b97f4a7c15U;
+
+/// Samples go with its square: twice as many a level.
+int resolution_at(int first, std::size_t level) {
+  return static_cast<int>(std::lround(first * std::pow(2.0, 0.5 * static_cast<double>(level))));
+}
 
 }  // namespace
 
@@ -20,7 +26,7 @@ PointGather::Methods PointGather::methods(const ElementMesh& mesh,
   FormFactorOptions half = options.form_factors;
   const double share = std::sqrt(static_cast<double>(kLooks));
   half.resolution = std::max(2, static_cast<int>(std::lround(half.resolution / share)));
-  half.resolution <<= level;
+  half.resolution = resolution_at(half.resolution, level);
   Methods made;
   for (auto& method : made) {
     method = form_factor_method(options.method, mesh, half);
@@ -43,12 +49,18 @@ PointGather::PointGather(const ElementMesh& mesh, const Sensors& points,
   method_[0] = methods(mesh, options, 0);
 }
 
-bool PointGather::look_finer(std::span<const std::uint8_t> is_wanted) {
+bool PointGather::look_finer(std::span<std::uint8_t> steps) {
+  std::size_t finest = 0;
+  while (finest + 1 < kLevels &&
+         resolution_at(options_.form_factors.resolution, finest + 1) <= options_.finest) {
+    ++finest;
+  }
   bool any = false;
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (is_wanted[i] == 0 || level_[i] + 1U >= kLevels) continue;
-    if (options_.form_factors.resolution << (level_[i] + 1) > options_.finest) continue;
-    Methods& finer = method_[++level_[i]];
+    if (level_[i] >= finest) steps[i] = 0;
+    if (steps[i] == 0) continue;
+    level_[i] = static_cast<std::uint8_t>(std::min<std::size_t>(level_[i] + steps[i], finest));
+    Methods& finer = method_[level_[i]];
     if (!finer[0]) finer = methods(mesh_, options_, level_[i]);
     for (std::size_t look = 0; look < kLooks; ++look) store_.forget(kLooks * i + look);
     any = true;
@@ -94,7 +106,7 @@ void PointGather::prepare(std::span<const std::uint8_t> is_wanted, Progress& pro
 void PointGather::for_rows(
     std::span<const std::uint8_t> is_wanted,
     const std::function<void(std::size_t, std::size_t, const FormFactorRow&)>& use) const {
-  parallel_for(points_.size(), kGrain, [&](IndexRange range) {
+  parallel_for(points_.size(), kRowGrain, [&](IndexRange range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
       if (is_wanted[i] == 0) continue;
       for (std::size_t look = 0; look < kLooks; ++look) {

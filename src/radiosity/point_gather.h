@@ -44,9 +44,10 @@ class PointGather {
   /// @throws Cancelled
   void prepare(std::span<const std::uint8_t> is_wanted, Progress& progress);
 
-  /// Lets these points look with four times the samples from now on, twice at most.
-  /// @return  whether any did not look so finely already
-  bool look_finer(std::span<const std::uint8_t> is_wanted);
+  /// Lets points look more finely from now on: with twice the samples a step, 16 times at most.
+  /// @param steps  [point], 0: as before. On return, of those that do not look more finely 0
+  /// @return  whether any do
+  bool look_finer(std::span<std::uint8_t> steps);
 
   /// Sum of form factor times value over the sides, by both looks [point]; zero for points that
   /// are not wanted.
@@ -69,7 +70,7 @@ class PointGather {
   const Sensors& points_;
   double lift_m_;
   OutwardView outward_;
-  static constexpr std::size_t kLevels = 3;
+  static constexpr std::size_t kLevels = 5;
   using Methods = std::array<std::unique_ptr<FormFactorMethod>, kLooks>;
   static Methods methods(const ElementMesh& mesh, const PointGatherOptions& options,
                          std::size_t level);

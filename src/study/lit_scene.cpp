@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/suggest.h"
 #include "scene/flatten.h"
+#include "scene/soup_triangle.h"
 
 namespace tenku {
 namespace {
@@ -116,10 +117,8 @@ SensorGrid LitScene::grid(std::span<const std::string> surfaces, double spacing_
       continue;
     }
     if (scene_.has_terrain) continue;  // it only closes the horizon there
-    const auto& [a, b, c] = soup_->triangles[t];
     given.push_back(t);
-    given_area += 0.5 * length(cross(soup_->vertices[b] - soup_->vertices[a],
-                                     soup_->vertices[c] - soup_->vertices[a]));
+    given_area += area_m2(*soup_, t);
   }
   SensorGrid grid;
   append_sensors(grid, *soup_, own, spacing_m);

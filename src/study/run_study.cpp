@@ -17,6 +17,7 @@
 #include "study/study_report.h"
 #include "study/study_sky.h"
 #include "study/view_output.h"
+#include "view/background.h"
 #include "view/eye_inside.h"
 #include "view/view_render.h"
 
@@ -67,6 +68,7 @@ ViewRequest view_request_of(const StudyView& view, const Study& study, const Lit
   request.bounces = study.calculation.bounces;
   request.seed = study.calculation.seed;
   request.method = method_of(study.calculation);
+  request.mirrors = view.mirrors;
   if (view.eye && view.target) {
     request.view.eye = lit.scene().frame.to_local(*view.eye);
     request.view.target = lit.scene().frame.to_local(*view.target);
@@ -99,6 +101,11 @@ class StudyRun {
 
   void render(const StudyView& view) {
     ViewRequest request = view_request_of(view, study_, lit_);
+    std::unique_ptr<Background> background;
+    if (!view.background.empty()) {
+      background = read_background(view.background, view.background_white);
+      request.background = background.get();
+    }
     request.reflection =
         reflection_.finder(illuminance_options_of(study_.calculation), request.method);
     RenderedView picture =

@@ -29,6 +29,10 @@ bool are_lamps_hard(const LitScene& lit) {
 
 }  // namespace
 
+bool is_room(const LitScene& lit) {
+  return lit.soup().size() <= kRoomTriangles && lit.extent().longest_side() <= kRoom_m;
+}
+
 SceneReflection::SceneReflection(const LitScene& lit, Reflection how) : lit_(lit), how_(how) {
   finder_.all = [this](const Sensors& sensors, SensorIlluminance& values, Progress& progress) {
     if (!light_) solve(progress);
@@ -50,7 +54,7 @@ SceneReflection::SceneReflection(const LitScene& lit, Reflection how) : lit_(lit
 bool SceneReflection::is_by_radiosity(int bounces) const {
   if (how_ == Reflection::Paths || bounces < kAllBounces) return false;
   if (how_ == Reflection::Radiosity) return true;
-  return lit_.soup().size() <= kRoomTriangles && lit_.extent().longest_side() <= kRoom_m;
+  return is_room(lit_);
 }
 
 const ReflectionFinder* SceneReflection::finder(const IlluminanceOptions& options,

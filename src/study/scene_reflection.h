@@ -13,6 +13,9 @@
 
 namespace tenku {
 
+/// Whether radiosity suits a scene by itself: no longer than 60 m, no more than 20,000 triangles.
+bool is_room(const LitScene& lit);
+
 /// Reflected light of one scene under one sky. Radiosity is solved when the first sensors need it,
 /// to their tolerance, and kept.
 ///

@@ -13,6 +13,7 @@
 #include "illuminance/light_method.h"
 #include "site/location.h"
 #include "sky_models/sky_partition.h"
+#include "view/mirror_method.h"
 #include "visibility/gl_context.h"
 
 namespace tenku {
@@ -65,6 +66,9 @@ struct StudyView {
   std::array<int, 2> size{960, 640};           ///< pixels, width and height
   ViewKind show = ViewKind::LuminanceImage;
   std::vector<std::string> formats{"png"};  ///< of `png`, `exr`, `hdr`, each once
+  MirrorOptions mirrors;
+  std::string background;  ///< `cube:FOLDER` or `image:FILE`, the path whole; empty: the sky
+  Luminance background_white{10'000.0};
 };
 
 /// Illuminance of the surfaces of the scene.

@@ -32,7 +32,9 @@ const std::vector<KnownTable>& known_tables() {
       {"calculation",
        {"tolerance_percent", "bounces", "seed", "engine", "reflection", "gl", "lod", "mu",
         "partition", "elements", "energy_threshold_lx"}},
-      {"view", {"name", "eye", "target", "fov_deg", "size", "show", "files"}},
+      {"view",
+       {"name", "eye", "target", "fov_deg", "size", "show", "files", "mirrors", "depth",
+        "background", "background_white_cd_m2"}},
       {"illuminance", {"name", "surfaces", "spacing_m", "most_sensors"}},
       {"sensors", {"name", "file"}},
       {"plan", {"spacing_m", "lowest_lx", "highest_lx"}},
@@ -196,7 +198,32 @@ ViewKind view_kind_named(const std::string& name) {
   return name == "falsecolor" ? ViewKind::FalseColour : ViewKind::LuminanceImage;
 }
 
-StudyView view_of(const TomlSection& in, std::set<std::string>& taken) {
+/// `cube:FOLDER` or `image:FILE` with the path taken from the folder of the study.
+std::string background_of(const TomlSection& in, const fs::path& folder) {
+  const auto text = in.text("background");
+  if (!text) return "";
+  const std::size_t colon = text->find(':');
+  const std::string kind = text->substr(0, colon);
+  if (colon == std::string::npos || (kind != "cube" && kind != "image")) {
+    in.refuse("background", "background in [view] must be cube:FOLDER or image:FILE");
+  }
+  return kind + ":" + (folder / text->substr(colon + 1)).string();
+}
+
+void read_mirrors(const TomlSection& in, const fs::path& folder, StudyView& view) {
+  static constexpr std::array<std::string_view, 4> kMethods{"auto", "beams", "rays", "off"};
+  if (const auto name = in.choice("mirrors", kMethods)) {
+    view.mirrors.method = mirror_method_named(*name);
+  }
+  view.mirrors.depth = static_cast<int>(in.integer("depth", {0, 64}).value_or(view.mirrors.depth));
+  view.mirrors.light_all = view.show == ViewKind::IlluminanceImage;
+  view.background = background_of(in, folder);
+  if (const auto white = in.number("background_white_cd_m2", {0.0, 1e12, true})) {
+    view.background_white = Luminance(*white);
+  }
+}
+
+StudyView view_of(const TomlSection& in, const fs::path& folder, std::set<std::string>& taken) {
   static constexpr std::array<std::string_view, 3> kShow{"luminance", "illuminance", "falsecolor"};
   static constexpr std::array<std::string_view, 3> kFormats{"png", "exr", "hdr"};
   StudyView view;
@@ -215,6 +242,7 @@ StudyView view_of(const TomlSection& in, std::set<std::string>& taken) {
   }
   view.show = view_kind_named(in.choice("show", kShow).value_or("luminance"));
   view.formats = in.choice_list("files", kFormats).value_or(view.formats);
+  read_mirrors(in, folder, view);
   return view;
 }
 
@@ -323,7 +351,8 @@ Study read_study(const fs::path& path, const StudyOverrides& overrides) {
   study.sky = sky_of(section(document, "sky"), sun, folder);
   study.calculation = calculation_of(section(document, "calculation"));
   std::set<std::string> names{"plan", "report", "manifest", "sun-path"};
-  for (const auto& in : sections(document, "view")) study.views.push_back(view_of(in, names));
+  for (const auto& in : sections(document, "view"))
+    study.views.push_back(view_of(in, folder, names));
   for (const auto& in : sections(document, "illuminance")) {
     study.fields.push_back(field_of(in, names));
   }

@@ -9,6 +9,7 @@
 namespace tenku {
 namespace {
 
+constexpr double kSeen = 1e-3;  ///< of a pixel's light: less is no step of a picture's 256
 constexpr int kRaysPerPixel = static_cast<int>(kRayPlaces.size());
 
 /// Those rays of a pixel that met one surface by the same way.
@@ -64,7 +65,7 @@ class PixelTracer {
     }
     rows.count.push_back(static_cast<std::uint32_t>(rows.points.size() - begin));
     rows.background.push_back(1.0 / kRaysPerPixel * background);
-    rows.cut_pixels += cut > 0.0;
+    rows.cut_pixels += cut > kSeen;
     rows.cut_share = std::max(rows.cut_share, cut);
   }
 

@@ -8,6 +8,9 @@
 #include <unordered_map>
 
 #include "core/parallel.h"
+#include "illuminance/error_budget.h"
+#include "illuminance/lamp_light.h"
+#include "scene/soup_triangle.h"
 #include "view/pixel_paths.h"
 #include "view/pixel_sharing.h"
 #include "view/shading_points.h"
@@ -61,6 +64,14 @@ IlluminanceOptions options_of(const ViewRequest& request) {
   return options;
 }
 
+/// A pixel's standard error is held to the tolerance; darker than a hundredth of the mean is black.
+ErrorBudget lamp_budget(const ViewRequest& request, const SensorIlluminance& light) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < light.size(); ++i) sum += light.total_lux(i);
+  return {std::min(100.0, ErrorBudget::kErrorsInTolerance * request.tolerance_pct),
+          0.01 * sum / static_cast<double>(light.size())};
+}
+
 /// Light between surfaces by the finder of the request: what varies slowly is shared, light of
 /// lamps, with its shadows, is found for each point.
 void add_found_reflection(const ViewRequest& request, const ShadingPoints& points,
@@ -90,12 +101,10 @@ SeenPolygons seen_polygons(const ShadingPoints& points, const PerspectiveCamera&
                                                static_cast<std::uint32_t>(seen.normal.size()));
     seen.of_sensor.push_back(found->second);
     if (!is_new) continue;
-    const auto& [a, b, c] = soup.triangles[t];
-    const Vec3 pa = soup.vertices[a], pb = soup.vertices[b], pc = soup.vertices[c];
-    const Vec3 to_eye = camera.eye() - (1.0 / 3.0) * (pa + pb + pc);
-    const double area = 0.5 * length(cross(pb - pa, pc - pa)), away = length(to_eye);
+    const Vec3 to_eye = camera.eye() - middle_of(soup, t);
+    const double away = length(to_eye);
     seen.normal.push_back(normal);
-    seen.pixels.push_back(area * std::abs(dot(normal, to_eye)) / (away * away * away) /
+    seen.pixels.push_back(area_m2(soup, t) * std::abs(dot(normal, to_eye)) / (away * away * away) /
                           (pixel * pixel));
   }
   return seen;
@@ -210,10 +219,13 @@ RenderedView render_view(const ViewRequest& request, const Engines& engines,
   } else if (request.bounces > 0 && points.sensors.size() > 0) {
     IlluminanceOptions options = options_of(request);
     options.bounces = request.bounces;
+    options.lamps_apart = true;
     // Some twenty representatives are blended in a pixel.
     const ReflectedSharing sharing(points.sensors, sharing_by_pixels(points, work.camera),
                                    engines.rays());
     add_shared_reflection(sharing, engines.rays(), source, options, progress, light);
+    light.rays += add_lamp_light(points.sensors, engines.rays(), lamp_budget(request, light.values),
+                                 request.seed, progress, light.values);
   }
   RenderedView result;
   result.luminance = Image(work.camera.width(), work.camera.height());
@@ -240,6 +252,7 @@ ViewPlan plan_view(const ViewRequest& request, const Engines& engines, const Day
   }
   if (request.bounces == 0 || work.points.sensors.size() == 0) return plan;
   options.bounces = request.bounces;
+  options.lamps_apart = true;
   const ReflectedSharing sharing(work.points.sensors, sharing_by_pixels(work.points, work.camera),
                                  engines.rays());
   plan.reflection_s = predicted_reflection_s(sensors_of(work.points.sensors, sharing.calculated()),

@@ -31,7 +31,8 @@ struct ViewRequest {
 /// Every pixel is four rays; those that meet the same surface share one sensor. Direct light is
 /// found for each sensor; reflected light, which varies slowly, for one sensor in a block of
 /// pixels on the same surface, and is shared (ReflectedSharing; `share_by_pixels` where the request
-/// has a finder). Skylight is averaged with the nearest pixels on the same surface.
+/// has a finder). Light straight from lamps, with its shadows, is found for each sensor. Skylight
+/// is averaged with the nearest pixels on the same surface.
 ///
 /// Shape    every array [row][column], row 0 at the top.
 /// Error    a pixel's standard error is held to the tolerance, not its four-fold: pictures are
@@ -40,7 +41,7 @@ struct RenderedView {
   Image luminance;                                 ///< linear RGB, cd/m2, the sky behind
   std::vector<double> illuminance_lux, error_lux;  ///< NaN where the sky is seen
   std::uint64_t rays = 0;
-  std::size_t out_of_tolerance = 0;           ///< pixels for which the limit of effort came first
+  std::size_t out_of_tolerance = 0;  ///< pixels for which the limit of effort came first
   std::vector<Finding> findings;
   double error_mean = 0.0;  ///< mean of error_lux over the pixels that have one
   std::vector<PlannedRegion> regions;

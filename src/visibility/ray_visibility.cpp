@@ -17,6 +17,8 @@ using EmbreeScene = Handle<RTCSceneTy, &rtcReleaseScene>;
 using EmbreeGeometry = Handle<RTCGeometryTy, &rtcReleaseGeometry>;
 
 constexpr unsigned kPacket = 16;
+constexpr double kUsualIndex = 1.52;      // soda-lime float glass
+constexpr double kOnePlane = 1.0 - 1e-6;  // cosine between the normals of one pane's triangles
 
 void throw_on_error(RTCDevice device, const char* doing) {
   const RTCError code = rtcGetDeviceError(device);
@@ -98,6 +100,21 @@ void gather_pane(const RTCFilterFunctionNArguments* arguments) {
   arguments->valid[0] = 0;  // not a stop: go on to the next pane
 }
 
+/// What the filter of a search for panes gathers along one ray.
+struct PaneQuery {
+  RTCIntersectContext context;  // first, as above
+  const std::vector<std::uint32_t>* glass;
+  std::vector<RayHit>* panes;
+};
+
+void gather_hit(const RTCFilterFunctionNArguments* arguments) {
+  auto* query = reinterpret_cast<PaneQuery*>(arguments->context);
+  const RTCHit hit = rtcGetHitFromHitN(arguments->hit, arguments->N, 0);
+  query->panes->push_back(
+      {(*query->glass)[hit.primID], RTCRayN_tfar(arguments->ray, arguments->N, 0)});
+  arguments->valid[0] = 0;
+}
+
 double extent_of(const TriangleSoup& soup) {
   double largest = 1.0;
   for (const Vec3& v : soup.vertices) {
@@ -148,6 +165,13 @@ RayVisibility::RayVisibility(const TriangleSoup& soup, const std::vector<Materia
   device_->opaque_scene = build_scene(device_->device.get(), soup, device_->opaque);
   device_->glass_scene = build_scene(device_->device.get(), soup, device_->glass);
   if (!has_glass()) few_edges_ = few_sharp_edges(soup, adjacency_, kFewEdges);
+  std::vector<bool> is_opaque(soup.size(), false);
+  for (const std::uint32_t t : device_->opaque) is_opaque[t] = true;
+  const auto distance_below = [this](Vec3 from) {
+    const auto hit = first_hit(from, -1.0 * kZenith);
+    return hit ? double{hit->distance_m} : std::numeric_limits<double>::infinity();
+  };
+  floating_parts_ = FloatingParts(soup, adjacency_, is_opaque, distance_below);
 }
 
 RayVisibility::~RayVisibility() = default;
@@ -231,6 +255,32 @@ double RayVisibility::glass_transmission(Vec3 origin, Vec3 direction, double dis
   return query.transmission;
 }
 
+void RayVisibility::find_panes(Vec3 origin, Vec3 direction, double distance_m,
+                               std::vector<RayHit>& panes) const {
+  panes.clear();
+  if (!has_glass()) return;
+  PaneQuery query{{}, &device_->glass, &panes};
+  rtcInitIntersectContext(&query.context);
+  query.context.filter = &gather_hit;
+  alignas(16) RTCRay ray;
+  set_ray(ray, origin, direction);
+  ray.tfar = static_cast<float>(distance_m);
+  rtcOccluded1(device_->glass_scene.get(), &query.context, &ray);
+  const auto height_m = [&](std::uint32_t t, Vec3 p) {
+    return std::abs(dot(normal(t), p - soup_.vertices[soup_.triangles[t][0]]));
+  };
+  std::erase_if(
+      panes, [&](const RayHit& hit) { return !(height_m(hit.triangle, origin) > 0.5 * lift_m_); });
+  std::sort(panes.begin(), panes.end(), [](const RayHit& a, const RayHit& b) {
+    return a.distance_m < b.distance_m || (a.distance_m == b.distance_m && a.triangle < b.triangle);
+  });
+  const auto is_again = [&](const RayHit& a, const RayHit& b) {
+    return height_m(a.triangle, origin + b.distance_m * direction) < lift_m_ &&
+           std::abs(dot(normal(a.triangle), normal(b.triangle))) > kOnePlane;
+  };
+  panes.erase(std::unique(panes.begin(), panes.end(), is_again), panes.end());
+}
+
 void RayVisibility::transmission(std::span<const Vec3> origin, std::span<const Vec3> direction,
                                  std::span<float> result) const {
   expects(origin.size() == direction.size() && origin.size() == result.size(),
@@ -264,9 +314,14 @@ void RayVisibility::transmission(std::span<const Vec3> origin, std::span<const V
 
 double pane_transmittance(const Material& glass, double cos_incidence) {
   if (glass.index > 0.0) return clear_pane(cos_incidence, glass.index);
-  constexpr double kUsualIndex = 1.52;  // soda-lime float glass
   return glass.transmittance * clear_pane(cos_incidence, kUsualIndex) /
          clear_pane(1.0, kUsualIndex);
+}
+
+double pane_reflectance(const Material& glass, double cos_incidence) {
+  const double clear =
+      1.0 - clear_pane(cos_incidence, glass.index > 0.0 ? glass.index : kUsualIndex);
+  return std::min(clear, 1.0 - pane_transmittance(glass, cos_incidence));
 }
 
 }  // namespace tenku

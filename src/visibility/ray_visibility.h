@@ -11,6 +11,7 @@
 #include "core/vec3.h"
 #include "scene/material.h"
 #include "scene/triangle_soup.h"
+#include "visibility/floating_parts.h"
 #include "visibility/mesh_adjacency.h"
 #include "visibility/sharp_edge.h"
 #include "visibility/visibility.h"
@@ -56,11 +57,17 @@ class RayVisibility : public Visibility {
   /// Product of the transmittances of the panes on the ray, whatever else is on it.
   double glass_transmission(Vec3 origin, Vec3 direction,
                             double distance_m = std::numeric_limits<double>::infinity()) const;
+  /// The panes on the ray up to a distance, nearest first. Of triangles that share the edge which
+  /// the ray meets one is told, and none whose plane holds the origin.
+  /// @param direction  unit
+  void find_panes(Vec3 origin, Vec3 direction, double distance_m, std::vector<RayHit>& panes) const;
   bool has_glass() const;
 
   const TriangleSoup& soup() const { return soup_; }
   const std::vector<Material>& materials() const { return materials_; }
   const MeshAdjacency& adjacency() const { return adjacency_; }
+  /// Opaque parts below which sky may show.
+  const FloatingParts& floating_parts() const { return floating_parts_; }
   /// All edges that can bound what is seen; none where they are many, or where there is glass.
   std::span<const SharpEdge> few_edges() const { return few_edges_; }
   Vec3 normal(std::uint32_t triangle) const;
@@ -77,6 +84,7 @@ class RayVisibility : public Visibility {
   MeshAdjacency adjacency_;
   double lift_m_;
   std::vector<SharpEdge> few_edges_;
+  FloatingParts floating_parts_;
   std::unique_ptr<Device> device_;
 };
 
@@ -86,5 +94,10 @@ class RayVisibility : public Visibility {
 ///          (1 - r) / (1 + r), r the Fresnel reflectance of one face. A pane given by its
 ///          transmittance at normal incidence follows the same curve of index 1.52, scaled.
 double pane_transmittance(const Material& glass, double cos_incidence);
+
+/// Specular reflectance of a pane, both its faces: what a clear pane does not let through. A pane
+/// given by its transmittance is taken for float glass of index 1.52 whose rest is absorbed inside;
+/// never more than is not let through.
+double pane_reflectance(const Material& glass, double cos_incidence);
 
 }  // namespace tenku

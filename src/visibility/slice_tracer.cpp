@@ -206,6 +206,14 @@ VisibleSlice SliceTracer::trace(Vec3 along, const Altitude& low, const Altitude&
   slice.low_edge = low_end_.edge;
   slice.high_edge = high_end_.edge;
   slice.hints = {low_end_.hint, high_end_.hint};
+  const FloatingParts& floating = rays_.floating_parts();
+  for (const SeenPart& seen : parts()) {
+    const FloatingPart& part = floating[seen.index];
+    const double x = part.middle.x - origin_.x, y = part.middle.y - origin_.y;
+    const double beside = x * plane_.across.x + y * plane_.across.y;
+    const double ahead = x * plane_.along.x + y * plane_.along.y;
+    if (std::abs(beside) < part.radius && ahead > -part.radius) remove_part(seen.index, slice);
+  }
   for (int i = 0; i < floating_count_; ++i) {
     std::uint32_t& triangle = floating_[static_cast<std::size_t>(i)];
     Cut known;
@@ -214,6 +222,51 @@ VisibleSlice SliceTracer::trace(Vec3 along, const Altitude& low, const Altitude&
     slice.remove(follow(known, -1).altitude(), follow(known, +1).altitude());
   }
   return slice;
+}
+
+const std::vector<SliceTracer::SeenPart>& SliceTracer::parts() {
+  if (has_parts_) return parts_;
+  has_parts_ = true;
+  const FloatingParts& floating = rays_.floating_parts();
+  if (floating.empty()) return parts_;
+  std::vector<std::uint32_t> found;
+  floating.around(origin_, kMostParts, found);
+  for (const std::uint32_t i : found) {
+    const FloatingPart& part = floating[i];
+    const Vec3 to = part.middle - origin_;
+    const double level = std::hypot(to.x, to.y), distance = std::max(length(to), 1e-9);
+    const double half_width =
+        part.radius < level ? std::asin(part.radius / level) : std::numbers::pi;
+    const double height = 0.5 * (part.highest - part.lowest);
+    const double share = std::min(1.0, part.radius / distance);
+    const double solid = std::min(
+        2.0 * std::numbers::pi,
+        4.0 * share * std::hypot(height, part.radius * std::abs(to.z) / distance) / distance);
+    parts_.push_back({i, std::atan2(to.x, to.y), half_width, solid, to.z / distance});
+  }
+  return parts_;
+}
+
+void SliceTracer::remove_part(std::uint32_t part, VisibleSlice& slice) const {
+  const FloatingParts& floating = rays_.floating_parts();
+  const auto altitude = [](double r, double z) { return Altitude::of_slope(z / r); };
+  for (const std::uint32_t t : floating.triangles(floating[part])) {
+    if (slice.count == 0) return;
+    const std::array<Corner, 3> at = corners(t);
+    Cut crossed;
+    if (!cut(t, at, crossed)) continue;
+    const PlanePoint &p = crossed.point[0], &q = crossed.point[1];
+    if (p.r > 0.0 && q.r > 0.0) {
+      const Altitude a = altitude(p.r, p.z), b = altitude(q.r, q.z);
+      slice.remove(a.radians < b.radians ? a : b, a.radians < b.radians ? b : a);
+      continue;
+    }
+    // One end lies behind: from the other end it hides all to the zenith, or to the nadir.
+    const PlanePoint &ahead = p.r > 0.0 ? p : q, &behind = p.r > 0.0 ? q : p;
+    const Altitude end = altitude(ahead.r, ahead.z);
+    const bool is_over = behind.z * ahead.r - ahead.z * behind.r > 0.0;
+    slice.remove(is_over ? end : Altitude{}, is_over ? Altitude::zenith() : end);
+  }
 }
 
 double SliceTracer::glass_transmission(double altitude_rad) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "core/altitude.h"
 #include "core/vec3.h"
@@ -29,7 +30,7 @@ struct SliceHints {
 
 /// Altitudes at which the sky shows in one vertical half-plane, in rising order.
 struct VisibleSlice {
-  static constexpr int kMaximum = 8;
+  static constexpr int kMaximum = 16;
   int count = 0;
   std::array<AltitudeRange, kMaximum> range;
   OutlineEdge low_edge, high_edge;
@@ -46,10 +47,13 @@ struct VisibleSlice {
 /// exactly. The next ray is sent just beyond. Triangles that bounded the last slice, and those
 /// beside this one, are followed first: what they hide needs no ray.
 ///
-/// The result is a claim, not a proof: something that floats between the two ends of the visible
-/// range is not seen by it. `check` sends a ray at an altitude of the caller's choice and tells
-/// the truth there; what it finds is remembered for the slices that follow. The caller corrects
-/// the claim by the checks, so that its estimates are unbiased whatever the claim misses.
+/// Parts below which sky may show (`FloatingParts`), up to the largest 64 as seen from here, are
+/// cut triangle by triangle: what of the slice they hide is taken away exactly.
+///
+/// The result is a claim, not a proof: something else that floats between the two ends of the
+/// visible range is not seen by it. `check` sends a ray at an altitude of the caller's choice and
+/// tells the truth there; what it finds is remembered for the slices that follow. The caller
+/// corrects the claim by the checks, so that its estimates are unbiased whatever the claim misses.
 ///
 /// Threads  one tracer a thread; many may share the ray engine.
 class SliceTracer {
@@ -68,6 +72,17 @@ class SliceTracer {
 
   /// Product of the transmittances of the panes at `altitude`, in the azimuth last traced.
   double glass_transmission(double altitude_rad);
+
+  /// A floating part as seen from here.
+  struct SeenPart {
+    std::uint32_t index;    ///< of `FloatingParts`
+    double azimuth_rad;     ///< of its middle
+    double half_width_rad;  ///< pi if it stands overhead
+    double solid_angle;     ///< of what encloses it
+    double sine;            ///< of the altitude of its middle
+  };
+  /// Floating parts that slices may meet, the largest first.
+  const std::vector<SeenPart>& parts();
 
   /// Floating things that checks have met so far.
   int floating() const { return floating_count_; }
@@ -134,10 +149,13 @@ class SliceTracer {
   /// Climbs (or descends) from `start` until the sky shows or `limit` is passed.
   Altitude find_end(const Altitude& start, const Altitude& limit, int sense, End& end,
                     const std::array<std::uint32_t, 2>& hints);
+  /// Takes away what a floating part hides.
+  void remove_part(std::uint32_t part, VisibleSlice& slice) const;
   void remember(std::uint32_t triangle);
   bool zenith_is_open();
 
   static constexpr int kFloating = 6;
+  static constexpr std::size_t kMostParts = 64;
 
   const RayVisibility& rays_;
   Vec3 origin_;
@@ -147,6 +165,8 @@ class SliceTracer {
   int zenith_ = -1;  ///< -1 not asked yet, 0 hidden, 1 open
   std::array<std::uint32_t, kFloating> floating_{};
   int floating_count_ = 0, floating_next_ = 0;
+  std::vector<SeenPart> parts_;
+  bool has_parts_ = false;  ///< they have been looked for
 };
 
 }  // namespace tenku

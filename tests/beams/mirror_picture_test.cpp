@@ -220,16 +220,7 @@ TEST(MirrorPicture, PanesThatMeetAtTheMiddleOfAnEdgeLeaveNoGap) {
 }
 
 TEST(MirrorPicture, FacadeOfTenThousandScatteredPanesFallsBackToRaysAndSaysSo) {
-  MirrorPicture what{"facade", {}, {{0, -90, 30}, {0, 0, 40}, Angle::degrees(60.0), 1, 1}, 4};
-  std::mt19937 chance(4);
-  const double scatter = 0.01 * kPi / 180.0;
-  std::uniform_real_distribution<double> tilt(-scatter, scatter);
-  for (int c = 0; c < 100; ++c) {
-    for (int r = 0; r < 100; ++r) {
-      what.scene.rectangle({-49.5 + c, 0, 0.5 + 0.8 * r}, {0.49, 0.49 * tilt(chance), 0},
-                           {0, 0.39 * tilt(chance), 0.39}, 1);
-    }
-  }
+  const MirrorPicture what = scattered_facade();
   const SmallPicture chosen(what, MirrorMethod::Auto, 128);
   EXPECT_EQ(chosen.report.used, MirrorMethod::Rays);
   ASSERT_EQ(chosen.report.findings.size(), 1U);

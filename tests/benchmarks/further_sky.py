@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """What a further sky costs on kept form factors: processor time of tenku radiosity with one sky,
 with another after it, and with ten, in the room with a window (room.obj, room_sensors.pts of
-against_radiance.py). The three take turns; medians of five.
+against_radiance.py). The three take turns; medians of five. Beside it what the runs with ten say
+themselves of each sky: a ratio within one process, which the load of a machine moves less.
 further_sky.py --tenku PROGRAM --reference FOLDER --out FOLDER [--sun] [--tolerance 2]
 
 --sun gives the further skies a sun. Needs nothing but Python 3.
@@ -51,16 +52,22 @@ def main():
     options.out.mkdir(parents=True, exist_ok=True)
     write_inputs(options.out, options.sun)
     times = {"one": [], "two": [], "all": []}
+    shares = []
     for _ in range(options.rounds):
         for name, seconds in times.items():
             spent, summary = processor_seconds(options, name + ".csv")
             seconds.append(spent)
+        of_sky = [sky["processor_s"] for sky in summary["skies"]]
+        shares.append([seconds / of_sky[0] for seconds in of_sky[1:]])
         say(", ".join(f"{name} {seconds[-1]:.2f} s" for name, seconds in times.items()))
     one, two, all_skies = (statistics.median(times[name]) for name in ("one", "two", "all"))
     each = (all_skies - two) / (len(FURTHER) - 1)
     print(f"{summary['elements']} elements: one sky {one:.2f} s of the processor; what other skies "
           f"need {two - one - each:.2f} s, once; each of them {each:.3f} s, "
           f"{100 * each / one:.1f} % of the first")
+    medians = [statistics.median(share) for share in zip(*shares)]
+    print(f"within a run, in percent of the first sky: mean {100 * statistics.mean(medians):.2f}; by "
+          "sky " + ", ".join(f"{100 * share:.2f}" for share in medians))
     print("clock, by sky: " + ", ".join(f"{sky['seconds']:.2f}" for sky in summary["skies"]))
 
 

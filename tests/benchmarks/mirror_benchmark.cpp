@@ -5,6 +5,7 @@
 //   mirror_benchmark --paper                      the first of them at other sizes
 //   mirror_benchmark --cuboids                    how the ratios fall with the number of mirrors,
 //   CSV
+//   mirror_benchmark --choice                     times only, at four sizes, and what auto takes
 //
 // Times are medians of five, processor time of all threads and the clock, of the stages "beams"
 // and "view rays". Mirrors scatter a twentieth where pictures are compared, so that each one tells
@@ -148,6 +149,18 @@ int main(int count, char** words) {
       MirrorPicture paper = one_cuboid();
       paper.view.width = paper.view.height = side;
       measure(paper, "");
+    }
+    return 0;
+  }
+  if (word == "--choice") {
+    std::vector<MirrorPicture> pictures = mirror_pictures();
+    pictures.insert(pictures.end(), {scattered_cuboids(260), scattered_facade(), glass_house()});
+    for (MirrorPicture& picture : pictures) {
+      for (const int side : {128, 256, 512, 1024}) {
+        picture.view.width = picture.view.height = side;
+        say_times(picture);
+        fmt::print("\n");
+      }
     }
     return 0;
   }

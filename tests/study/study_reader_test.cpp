@@ -107,6 +107,10 @@ fov_deg = 35
 size = [800, 600]
 show = "falsecolor"
 files = ["exr", "png"]
+mirrors = "rays"
+depth = 7
+background = "cube:street"
+background_white_cd_m2 = 3000
 [[view]]
 name = "b"
 [[illuminance]]
@@ -159,6 +163,12 @@ sun_path = false
   EXPECT_EQ(study.views[0].size, (std::array{800, 600}));
   EXPECT_EQ(study.views[0].show, ViewKind::FalseColour);
   EXPECT_EQ(study.views[0].formats, (std::vector<std::string>{"exr", "png"}));
+  EXPECT_EQ(study.views[0].mirrors.method, MirrorMethod::Rays);
+  EXPECT_EQ(study.views[0].mirrors.depth, 7);
+  EXPECT_EQ(study.views[0].background, "cube:" + (folder_ / "street").string());
+  EXPECT_EQ(study.views[0].background_white, Luminance(3000.0));
+  EXPECT_EQ(study.views[1].mirrors.depth, 4);
+  EXPECT_TRUE(study.views[1].background.empty());
   EXPECT_FALSE(study.views[1].eye);
   ASSERT_EQ(study.fields.size(), 1U);
   EXPECT_EQ(study.fields[0].surfaces, std::vector<std::string>{"walls"});
@@ -210,6 +220,9 @@ TEST_F(StudyReader, RefusesValuesOutOfRangeWithTheirLine) {
       {"[sky]\nmodel = \"\"\n", "6: model in [sky] is empty"},
       {"[sky]\nmodel = \"a\\u0000b\"\n", "6: model in [sky] holds a control character"},
       {"[[view]]\neye = [0, 0, 1]\n", "6: eye needs target beside it"},
+      {"[[view]]\ndepth = 65\n", "6: depth in [view] is 65"},
+      {"[[view]]\nmirrors = \"ray\"\n", "6: mirrors in [view]"},
+      {"[[view]]\nbackground = \"street.png\"\n", "6: background in [view] must be cube:"},
       {"[[view]]\neye = [0, 0, 1]\ntarget = [0, 0, 1]\n", "7: target is where eye is"},
       {"[[view]]\neye = [0, 0]\ntarget = [0, 0, 1]\n", "6: eye in [view] must be a list of 3"},
       {"[[view]]\neye = [0, 0, inf]\ntarget = [0, 0, 1]\n", "6: eye in [view] is inf"},

@@ -144,6 +144,46 @@ inline MirrorPicture bent_glass(int columns, int rows) {
   return made;
 }
 
+/// A facade of 100 x 100 panes, each turned by up to 0.01 degrees.
+inline MirrorPicture scattered_facade() {
+  MirrorPicture made{"facade of 10000 panes", {}, seen_from({0, -90, 30}, {0, 0, 40}, 60.0), 4};
+  std::mt19937 chance(4);
+  const double scatter = 0.01 * kPi / 180.0;
+  std::uniform_real_distribution<double> tilt(-scatter, scatter);
+  for (int c = 0; c < 100; ++c) {
+    for (int r = 0; r < 100; ++r) {
+      made.scene.rectangle({-49.5 + c, 0, 0.5 + 0.8 * r}, {0.49, 0.49 * tilt(chance), 0},
+                           {0, 0.39 * tilt(chance), 0.39}, 1);
+    }
+  }
+  return made;
+}
+
+/// Material of the panes of `scene_with_pane`.
+inline constexpr std::uint32_t kPane = 2;
+
+inline MirrorScene scene_with_pane(double index = 1.52) {
+  MirrorScene scene;
+  scene.materials.push_back({});
+  scene.materials[kPane].index = index;
+  scene.materials[kPane].reflectance = {};
+  return scene;
+}
+
+/// A room of glass in a street: panes before grey walls, one pane before another, a mirror behind
+/// panes, panes that the mirror shows.
+inline MirrorPicture glass_house() {
+  MirrorPicture made{"glass house", scene_with_pane(), seen_from({2.5, -6, 2.2}, {0, 0, 1}, 50.0),
+                     4};
+  made.scene.box({-1.5, -1.2, 0}, {1.2, 1.4, 2.1}, kPane);
+  made.scene.box({-0.6, -0.4, 0}, {0.1, 0.5, 1.1}, 0);
+  made.scene.rectangle({-0.2, 1.0, 1.0}, {0.7, 0.1, 0}, {0, 0.05, 0.6}, 1);
+  made.scene.rectangle({2.4, -0.3, 1.0}, {0.3, 0.9, 0}, {0, 0, 1.0}, kPane);
+  made.scene.box({-3.5, 1.8, 0}, {-2.4, 2.8, 2.6}, 0);
+  made.scene.rectangle({0, 0, -0.02}, {8, 0, 0}, {0, 8, 0}, 0);
+  return made;
+}
+
 inline std::vector<MirrorPicture> mirror_pictures() {
   return {one_cuboid(), two_cuboids(),         facing_mirrors(), corner_of_mirrors(),
           towers(),     scattered_cuboids(33), bent_glass(40, 5)};

@@ -145,13 +145,12 @@ TEST(CornellPicture, HasNoSpecks) {
   EXPECT_GT(smooth, std::size_t{kWide} * kWide / 4);
 }
 
-// Paths meet the lamp by chance, and are believed where none has: too dark (docs/validation.md),
-// but of the right colour.
-TEST(CornellPicture, ByPathsHasTheSameColours) {
+// Light straight from the lamp is found pixel by pixel; what is reflected is blended over blocks.
+TEST(CornellPicture, ByPathsHasTheSameLightAndColours) {
   const Reference reference = reference_picture();
   const LitScene lit = testing_support::cornell_box(kFolder);
   ViewRequest request;
-  request.view = testing_support::cornell_view(kSide / 2);
+  request.view = testing_support::cornell_view(kSide);
   request.tolerance_pct = 5.0;
   request.bounces = 12;
   Progress quiet;
@@ -161,6 +160,8 @@ TEST(CornellPicture, ByPathsHasTheSameColours) {
        {std::array{2, 12, 16, 40}, std::array{54, 62, 16, 40}, std::array{34, 50, 16, 36}}) {
     const auto found = channels(mean_of(view.luminance.pixels, at));
     const auto expected = channels(mean_of(reference.light, at));
+    std::printf("[ MEASURED ] by paths, green over the reference: %.3f\n", found[1] / expected[1]);
+    EXPECT_NEAR(found[1] / expected[1], 1.0, 0.05) << at[0];
     for (const std::size_t c : {0, 2}) {
       EXPECT_NEAR(found[c] / found[1] / (expected[c] / expected[1]), 1.0, 0.1)
           << at[0] << " " << kChannels[c];
