@@ -10,6 +10,7 @@
 #include "cli/command.h"
 #include "cli/finding_json.h"
 #include "cli/scene_options.h"
+#include "cli/store_inspection.h"
 #include "scene/flatten.h"
 
 namespace tenku {
@@ -159,6 +160,7 @@ void print_text(const Scene& scene, const Counts& counts, bool verbose) {
 }
 
 int inspect(const SceneOptions& options, const CommandContext& context) {
+  if (is_store_name(options.scene)) return inspect_store(options.scene, context.options);
   const Scene scene = read_scene(options.scene, read_options(options), context.progress);
   const Counts counts = counts_of(scene, flatten(scene));
   if (context.options.json) {

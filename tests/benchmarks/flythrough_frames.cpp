@@ -1,0 +1,82 @@
+// Frames of a point store beside the same frames rendered directly: how alike, and how long either
+// takes. flythrough_frames STORE SCENE SKY SUN_ALTITUDE SUN_AZIMUTH TOLERANCE BOUNCES COUNT [OUT]
+// [GROUND]. One row a frame; with OUT, pairs of PNG files.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <string>
+
+#include "core/stopwatch.h"
+#include "flythrough/played_frame.h"
+#include "output/image_writer.h"
+#include "study/lit_scene.h"
+#include "view/tone_map.h"
+#include "view/view_render.h"
+
+namespace tenku {
+namespace {
+
+using testing_support::PlayedFrame;
+
+double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+int compare(char** argv, int argc) {
+  const PointStore store{argv[1]};
+  SkyRequest sky;
+  sky.model = argv[3];
+  sky.sun = SunInSky{
+      direction_from(Angle::degrees(std::atof(argv[5])), Angle::degrees(std::atof(argv[4]))),
+      Angle::degrees(0.533 / 2), std::nullopt};
+  ReadOptions read;
+  if (argc > 10) read.ground = GroundChoice::parse(argv[10]);
+  Progress quiet;
+  const LitScene lit(
+      argv[2], read, [&](const auto&) { return make_sky(sky); }, std::nullopt, GlPlatform::Auto,
+      quiet);
+  ViewRequest request;
+  request.tolerance_pct = std::atof(argv[6]);
+  request.bounces = std::atoi(argv[7]);
+  const auto count = static_cast<std::size_t>(std::atoi(argv[8]));
+  const std::string out = argc > 9 ? argv[9] : "";
+  const std::size_t n = store.header().path.size();
+  fmt::print("frame,difference,similarity,direct_s,direct_processor_s,played_s,empty_share\n");
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t frame = count > 1 ? k * (n - 1) / (count - 1) : n / 2;
+    request.view = store.header().path.view(frame);
+    Stopwatch clock;
+    const double before = processor_s();
+    const RenderedView direct =
+        render_view(request, lit.engines(), lit.source(), lit.sky().model.get(), quiet);
+    const double direct_s = clock.seconds(), direct_cpu = processor_s() - before;
+    clock = {};
+    const PlayedFrame played = testing_support::played_frame(store, frame);
+    const double played_s = clock.seconds();
+    // One exposure for both.
+    ToneMapOptions tone;
+    tone.ev100 = std::log2(1.0 / (1.2 * exposure_of(direct.luminance, {})));
+    const Image8 a = tone_map(direct.luminance, tone), b = tone_map(played.luminance, tone);
+    fmt::print("{},{:.3f},{:.4f},{:.2f},{:.2f},{:.2f},{:.4f}\n", frame,
+               testing_support::mean_difference(a, b), testing_support::structural_similarity(a, b),
+               direct_s, direct_cpu, played_s,
+               static_cast<double>(played.empty_samples) / (4.0 * a.width * a.height));
+    if (out.empty() || out == "-") continue;
+    write_png(fmt::format("{}/direct{:04}.png", out, frame), a);
+    write_png(fmt::format("{}/played{:04}.png", out, frame), b);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace tenku
+
+int main(int argc, char** argv) {
+  if (argc < 9) {
+    fmt::print(stderr,
+               "flythrough_frames STORE SCENE SKY SUN_ALTITUDE SUN_AZIMUTH TOLERANCE BOUNCES COUNT "
+               "[OUT] [GROUND]\n");
+    return 2;
+  }
+  return tenku::compare(argv, argc);
+}
