@@ -17,6 +17,7 @@
 #include "flythrough/store_lighting.h"
 #include "output/sha256.h"
 #include "study/camera_path_reader.h"
+#include "study/point_export.h"
 #include "view/eye_inside.h"
 
 namespace tenku {
@@ -24,7 +25,8 @@ namespace {
 
 struct FlyThroughOptions {
   LitSceneOptions lit;
-  std::string path, relight;
+  std::string path, relight, store, export_to;
+  std::size_t lighting = 0;
   bool resume = false;
 };
 
@@ -168,6 +170,15 @@ int relight_store(FlyThroughOptions options, const CommandContext& context) {
   return kDone;
 }
 
+/// Gives the points of a store to other programs.
+int export_store(const FlyThroughOptions& options) {
+  if (options.store.empty()) throw InputError("--export needs --store, the store to take from");
+  check_export_ending(options.export_to);
+  check_can_write(options.export_to);
+  export_points(PointStore(options.store), options.lighting, options.export_to);
+  return kDone;
+}
+
 }  // namespace
 
 CommandBody make_flythrough_command(CLI::App& app) {
@@ -180,7 +191,13 @@ CommandBody make_flythrough_command(CLI::App& app) {
                "go on with OUT.part, which a run that was cut off left behind");
   app.add_option("--relight", options->relight,
                  "add the light of another --time or sky to this store, in place of a new one");
+  app.add_option("--store", options->store, "with --export: the store to take points from");
+  app.add_option("--export", options->export_to,
+                 "write the points of --store for other programs: .ply, .glb or .vtp");
+  app.add_option("--lighting", options->lighting,
+                 "with --export: which sun and sky of the store, from 0 (default 0)");
   return [options](const CommandContext& context) {
+    if (!options->export_to.empty()) return export_store(*options);
     return options->relight.empty() ? fly(*options, context) : relight_store(*options, context);
   };
 }
