@@ -60,8 +60,8 @@ TEST_F(Playback, PixelsHaveTheLuminanceOfLambertsLaw) {
       }
     }
   }
-  EXPECT_GT(floor, 200U);
-  EXPECT_GT(sky, 200U);
+  EXPECT_GT(floor, 100U);  // there is something to compare
+  EXPECT_GT(sky, 100U);
   EXPECT_GT(below, 20U);
 }
 
