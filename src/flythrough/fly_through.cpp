@@ -179,7 +179,8 @@ class FlyThrough {
   void write_batch(const StoredPoints& points, std::size_t first_chunk) {
     const Stopwatch watch;
     const auto cuts = cut_by_space(points, request_.points_in_chunk);
-    for (std::size_t k = 0; k < cuts.size(); ++k) {
+    progress_.begin("lighting points", cuts.size());
+    for (std::size_t k = 0; k < cuts.size(); ++k, progress_.advance(1)) {
       const std::size_t chunk = first_chunk + k;
       progress_.stop_if_cancelled();
       if (chunk < is_lit_.size() && is_lit_[chunk]) continue;  // a run before this one did
@@ -191,6 +192,7 @@ class FlyThrough {
                        source_, request_.light, plan_, quiet);
       store_->add_light(chunk, 0, light);
     }
+    progress_.end(fmt::format("{} points", points.size()));
     result_.light_s += watch.seconds();
   }
 

@@ -154,9 +154,9 @@ class DirectLight {
     const double lux = source_.sun.normal_illuminance.value();
     if (!(lux > 0.0)) return std::vector<double>(sensors.size(), 0.0);
     constexpr std::size_t kUsual = 8;
-    const std::size_t directions = plan_.is_shared ? plan_.sun_directions : kUsual;
+    const std::size_t directions = plan_.sun_directions > 0 ? plan_.sun_directions : kUsual;
     return shared_sun_lux(engines_.rays(), lifted(sensors, engines_.rays().lift_m()), source_.sun,
-                          static_cast<int>(std::max<std::size_t>(directions, 1)));
+                          static_cast<int>(directions));
   }
 
  private:
@@ -249,6 +249,9 @@ class LightChange {
 
   /// Skylight of all points.
   std::vector<double> sky_lux(const DirectLight& by, Progress& progress) const {
+    const bool had_sky = std::any_of(before_.sky_lux.begin(), before_.sky_lux.end(),
+                                     [](float lux) { return lux > 0.0F; });
+    if (!had_sky) return by.light(sensors_, 1.0, progress).sky_lux;
     const ReflectedSharing sharing(sensors_, sharing_by_footprint(points_, kSkyBlock),
                                    engines_.rays());
     const auto& chosen = sharing.calculated();
@@ -277,6 +280,9 @@ class LightChange {
     how.known_direct = &known;
     const SensorIlluminance now =
         illuminate(sensors_of(sensors_, chosen), engines_.rays(), source, how, progress).values;
+    const bool had_any = std::any_of(before_.reflected_lux.begin(), before_.reflected_lux.end(),
+                                     [](Rgb lux) { return luminance_of(lux) > 0.0; });
+    if (!had_any) return sharing.spread(now, values);
     SensorIlluminance few(chosen.size()), all(points_.size());
     for (std::size_t k = 0; k < chosen.size(); ++k) {
       const Rgb a = now.reflected_rgb[k], b = before_.reflected_lux[chosen[k]];

@@ -40,21 +40,25 @@ CameraKey key_of(const TomlSection& in, Angle usual_fov) {
   return {*time, *eye, *target, fov ? Angle::degrees(*fov) : usual_fov};
 }
 
-/// Height of what one can walk on under (x, y), past roofs and bridges above it.
+/// Height of what one can walk on under (x, y), past roofs and bridges above it: the highest ground
+/// or road, or else, where the file tells no kinds of surfaces, the lowest that is no wall.
 std::optional<double> ground_below(const LitScene& lit, double x, double y, double top) {
   constexpr int kMostLayers = 256;
-  constexpr double kLevel = 0.05;  // of a surface that is no wall: the cosine of its slope
+  constexpr double kWalkable = 0.5;  // cosine of the steepest slope
   double z = top;
+  std::optional<double> lowest;
   for (int k = 0; k < kMostLayers; ++k) {
     const auto hit = lit.rays().first_hit({x, y, z}, {0.0, 0.0, -1.0});
-    if (!hit) return std::nullopt;
+    if (!hit) break;
     z -= hit->distance_m;
-    const SurfaceType type = broad_type(lit.soup(), hit->triangle);
-    const bool is_ground = type == SurfaceType::Ground || type == SurfaceType::Road;
-    if (is_ground && lit.rays().normal(hit->triangle).z > kLevel) return z;
+    if (std::abs(lit.rays().normal(hit->triangle).z) > kWalkable) {
+      const SurfaceType type = lit.soup().surface_type[hit->triangle];
+      if (type == SurfaceType::Ground || type == SurfaceType::Road) return z;
+      if (type == SurfaceType::Unknown) lowest = z;
+    }
     z -= 10.0 * lit.rays().lift_m();
   }
-  return std::nullopt;
+  return lowest;
 }
 
 }  // namespace
