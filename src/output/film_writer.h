@@ -1,8 +1,6 @@
 /// Pictures in a row as one film.
 #pragma once
 
-#include <sys/types.h>
-
 #include <filesystem>
 
 #include "core/atomic_file.h"
@@ -33,7 +31,7 @@ class FilmWriter {
   AtomicFile file_;
   int width_, height_;
   int to_program_ = -1;
-  pid_t program_ = -1;
+  int program_ = -1;  ///< its process
 };
 
 /// Tells before a long calculation whether `FilmWriter` could start.
