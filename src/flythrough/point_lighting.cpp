@@ -256,14 +256,15 @@ class LightChange {
                                    engines_.rays());
     const auto& chosen = sharing.calculated();
     const SensorIlluminance now = by.light(sensors_of(sensors_, chosen), 1.0, progress);
-    SensorIlluminance few(chosen.size()), all(points_.size());
+    SensorIlluminance few_now(chosen.size()), few_then(chosen.size());
     for (std::size_t k = 0; k < chosen.size(); ++k) {
-      few.set_reflected(k, Rgb::grey(ratio_of(now.sky_lux[k], before_.sky_lux[chosen[k]])));
+      few_now.set_reflected(k, Rgb::grey(now.sky_lux[k]));
+      few_then.set_reflected(k, Rgb::grey(double{before_.sky_lux[chosen[k]]}));
     }
-    sharing.spread(few, all);
-    for (std::size_t i = 0; i < all.size(); ++i)
-      all.sky_lux[i] = before_.sky_lux[i] * all.reflected_lux[i];
-    return std::move(all.sky_lux);
+    std::vector<double> sky;
+    const std::vector<Rgb> ratio = blended_ratio(sharing, few_now, few_then);
+    for (std::size_t i = 0; i < ratio.size(); ++i) sky.push_back(before_.sky_lux[i] * ratio[i].g);
+    return sky;
   }
 
   /// Adds reflected light to what has its direct light.
@@ -283,18 +284,31 @@ class LightChange {
     const bool had_any = std::any_of(before_.reflected_lux.begin(), before_.reflected_lux.end(),
                                      [](Rgb lux) { return luminance_of(lux) > 0.0; });
     if (!had_any) return sharing.spread(now, values);
-    SensorIlluminance few(chosen.size()), all(points_.size());
+    SensorIlluminance then(chosen.size());
     for (std::size_t k = 0; k < chosen.size(); ++k) {
-      const Rgb a = now.reflected_rgb[k], b = before_.reflected_lux[chosen[k]];
-      few.set_reflected(k, {ratio_of(a.r, b.r), ratio_of(a.g, b.g), ratio_of(a.b, b.b)});
+      then.set_reflected(k, before_.reflected_lux[chosen[k]]);
     }
-    sharing.spread(few, all);
+    const std::vector<Rgb> ratio = blended_ratio(sharing, now, then);
     for (std::size_t i = 0; i < values.size(); ++i) {
-      values.set_reflected(i, before_.reflected_lux[i] * all.reflected_rgb[i]);
+      values.set_reflected(i, before_.reflected_lux[i] * ratio[i]);
     }
   }
 
  private:
+  /// Of blends, not a blend of ratios: where one of the few is dark it says little.
+  std::vector<Rgb> blended_ratio(const ReflectedSharing& sharing, const SensorIlluminance& now,
+                                 const SensorIlluminance& then) const {
+    SensorIlluminance all_now(points_.size()), all_then(points_.size());
+    sharing.spread(now, all_now);
+    sharing.spread(then, all_then);
+    std::vector<Rgb> ratio;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const Rgb a = all_now.reflected_rgb[i], b = all_then.reflected_rgb[i];
+      ratio.push_back({ratio_of(a.r, b.r), ratio_of(a.g, b.g), ratio_of(a.b, b.b)});
+    }
+    return ratio;
+  }
+
   const StoredPoints& points_;
   Sensors sensors_;
   const PointLight& before_;

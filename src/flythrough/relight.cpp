@@ -35,6 +35,17 @@ std::optional<std::size_t> begun(const PointStore& store, const StoreLighting& w
   return std::nullopt;
 }
 
+/// Points of a chunk, off their surfaces by as much as rounding may have moved them below.
+StoredPoints lifted_points(const PointStore& store, std::size_t chunk) {
+  constexpr double kRounding = 1.0 / 32.0;  // of the finest footprint: more than sqrt(3) / 64
+  StoredPoints points = store.points(chunk);
+  const double lift = kRounding * double{store.chunks()[chunk].finest_m};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points.position[i] = points.position[i] + lift * points.normal[i];
+  }
+  return points;
+}
+
 }  // namespace
 
 void check_scene(const PointStore& store, const std::string& scene_sha256,
@@ -65,9 +76,9 @@ RelightResult relight(const std::filesystem::path& file, const std::string& scen
     progress.stop_if_cancelled();
     if (former && store.has_light(c, *former)) continue;
     Progress quiet;
-    writer.add_light(
-        c, result.lighting,
-        relight_points(store.points(c), store.light(c, 0), engines, source, options, plan, quiet));
+    writer.add_light(c, result.lighting,
+                     relight_points(lifted_points(store, c), store.light(c, 0), engines, source,
+                                    options, plan, quiet));
     progress.advance(1);
   }
   progress.end(std::to_string(result.points) + " points");

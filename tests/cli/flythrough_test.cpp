@@ -109,8 +109,8 @@ TEST_F(FlyThroughProgram, AFullDiskEndsWithOne) {
 TEST_F(FlyThroughProgram, APathThroughAWallIsToldWithItsObject) {
   write_text(folder / "p.toml",
              "frames_per_second = 4\nsize = [16, 12]\ncurve = \"straight\"\n"
-             "[[key]]\ntime_s = 0\neye = [5, 0, 0]\ntarget = [-9, 0, 0]\n"
-             "[[key]]\ntime_s = 2\neye = [0, 0, 0]\ntarget = [-9, 0, 0]\n");
+             "[[key]]\ntime_s = 0\neye = [5, 0.1, 0.3]\ntarget = [-9, 0, 0]\n"
+             "[[key]]\ntime_s = 2\neye = [0, 0.1, 0.3]\ntarget = [-9, 0, 0]\n");
   const auto run = fly(" --out f.tkpts --json");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   json found;
