@@ -47,6 +47,7 @@ CommandBody make_form_factors_command(CLI::App& app);
 CommandBody make_reflections_command(CLI::App& app);
 CommandBody make_chart_command(CLI::App& app);
 CommandBody make_flythrough_command(CLI::App& app);
+CommandBody make_play_command(CLI::App& app);
 CommandBody make_run_command(CLI::App& app);
 
 /// Writes one line to standard error unless `--quiet`.

@@ -136,18 +136,22 @@ ShadingPoints find_shading_points(const PerspectiveCamera& camera, const RayVisi
   const auto height = static_cast<std::size_t>(camera.height());
   std::vector<RowPoints> rows((height + kRows - 1) / kRows);
   progress.begin("view rays", height);
-  parallel_for(height, kRows, [&](IndexRange range) {
+  const auto trace_rows = [&](std::size_t block) {
     progress.stop_if_cancelled();
     PixelTracer tracer(paths, rays, camera.eye(), place);
-    RowPoints& made = rows[range.begin / kRows];
-    const std::size_t pixels = (range.end - range.begin) * static_cast<std::size_t>(camera.width());
+    RowPoints& made = rows[block];
+    const std::size_t begin = block * kRows, end = std::min(height, begin + kRows);
+    const std::size_t pixels = (end - begin) * static_cast<std::size_t>(camera.width());
     made.count.reserve(pixels);
     made.background.reserve(pixels);
-    for (std::size_t y = range.begin; y < range.end; ++y) {
+    for (std::size_t y = begin; y < end; ++y) {
       for (int x = 0; x < camera.width(); ++x) tracer.trace(x, static_cast<int>(y), made);
     }
     made.rays += tracer.sent();
-    progress.advance(range.end - range.begin);
+    progress.advance(end - begin);
+  };
+  parallel_for(rows.size(), 1, [&](IndexRange blocks) {
+    for (std::size_t block = blocks.begin; block < blocks.end; ++block) trace_rows(block);
   });
   ShadingPoints points;
   points.width = camera.width();
