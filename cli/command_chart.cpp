@@ -106,6 +106,7 @@ void tell(const ChartResult& result, const CommonOptions& common,
 
 int chart(const ChartOptions& options, const CommandContext& context) {
   const double budget_s = seconds_of(options.budget);
+  check_chart_stages(options.stages);
   const std::filesystem::path folder = options.lit.out;
   if (options.lit.out == "-") throw InputError("a chart needs a folder: --out DIR");
   if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder)) {

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/suggest.h"
 #include "form_factors/form_factor.h"
 #include "illuminance/planned_light.h"
 #include "meshing/mesh_surfaces.h"
@@ -92,6 +91,15 @@ std::vector<std::string> chart_stages() {
   return {"sky", "visibility", "lod", "form-factors", "mesh"};
 }
 
+void check_chart_stages(const std::vector<std::string>& stages) {
+  const std::vector<std::string> known = chart_stages();
+  for (const std::string& stage : stages) {
+    if (stage == "all" || std::find(known.begin(), known.end(), stage) != known.end()) continue;
+    throw InputError(fmt::format("there is no stage '{}' to chart: there are {} and all", stage,
+                                 fmt::join(known, ", ")));
+  }
+}
+
 ChartSettings::ChartSettings(const LitScene& lit, const Sensors& sensors,
                              std::vector<std::string> stages, std::uint64_t seed)
     : lit_(lit),
@@ -99,14 +107,8 @@ ChartSettings::ChartSettings(const LitScene& lit, const Sensors& sensors,
       stages_(std::move(stages)),
       seed_(seed),
       direct_(std::make_shared<DirectLight>()) {
-  const std::vector<std::string> known = chart_stages();
+  check_chart_stages(stages_);
   const bool is_all = std::find(stages_.begin(), stages_.end(), "all") != stages_.end();
-  for (const std::string& stage : stages_) {
-    if (stage == "all" || std::find(known.begin(), known.end(), stage) != known.end()) continue;
-    std::vector<std::string_view> names(known.begin(), known.end());
-    names.emplace_back("all");
-    throw InputError("there is no stage '" + stage + "' to chart" + suggestion(stage, names));
-  }
   if (is_all) {
     stages_ = {"sky", "visibility", "lod"};
     if (is_room(lit)) stages_.insert(stages_.end(), {"form-factors", "mesh"});

@@ -15,6 +15,9 @@ namespace tenku {
 /// The stages there are, in the order of the flow.
 std::vector<std::string> chart_stages();
 
+/// @throws InputError  for what is neither one of them nor `all`
+void check_chart_stages(const std::vector<std::string>& stages);
+
 /// Settings and references for some stages of a scene, and what of it they share.
 ///
 /// `sky`, `visibility` and `lod` find direct light on the sensors and are held against slices;
