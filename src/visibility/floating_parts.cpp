@@ -23,12 +23,14 @@ constexpr double kLeastSeen = 0.003;  // radians: a hundred-thousandth of the sk
 /// The triangles of each connected part, one part after the other.
 struct Connected {
   std::vector<std::uint32_t> triangle, end;
+  std::vector<std::uint32_t> part_of;  ///< [triangle of the soup]
 };
 
 Connected connected_parts(const TriangleSoup& soup, const MeshAdjacency& adjacency,
                           const std::vector<bool>& is_opaque) {
   Connected parts;
   parts.triangle.reserve(soup.size());
+  parts.part_of.resize(soup.size());
   std::vector<bool> is_taken(soup.size(), false);
   for (std::uint32_t first = 0; first < soup.size(); ++first) {
     if (is_taken[first] || !is_opaque[first]) continue;
@@ -44,6 +46,10 @@ Connected connected_parts(const TriangleSoup& soup, const MeshAdjacency& adjacen
         is_taken[other] = true;
         parts.triangle.push_back(other);
       }
+    }
+    const std::size_t begin = parts.end.empty() ? 0 : parts.end.back();
+    for (std::size_t k = begin; k < parts.triangle.size(); ++k) {
+      parts.part_of[parts.triangle[k]] = static_cast<std::uint32_t>(parts.end.size());
     }
     parts.end.push_back(static_cast<std::uint32_t>(parts.triangle.size()));
   }
@@ -102,11 +108,27 @@ FloatingPart measured(const TriangleSoup& soup, std::span<const std::uint32_t> t
   return part;
 }
 
+/// Whether nothing else lies within kAir_m below the foot of a part.
+bool has_air_below(Vec3 foot, std::uint32_t part, const Connected& all,
+                   const FloatingParts::LookDown& look_down) {
+  constexpr double kAbove_m = 0.02, kPast_m = 1e-3;
+  constexpr int kMostOwn = 8;  // surfaces of its own on the way
+  Vec3 from = foot + Vec3{0.0, 0.0, kAbove_m};
+  for (int k = 0; k < kMostOwn; ++k) {
+    const auto below = look_down(from);
+    if (!below) return true;
+    if (all.part_of[below->triangle] != part) {
+      return from.z - below->distance_m < foot.z - kAir_m;
+    }
+    from.z -= below->distance_m + kPast_m;
+  }
+  return true;
+}
+
 }  // namespace
 
 FloatingParts::FloatingParts(const TriangleSoup& soup, const MeshAdjacency& adjacency,
-                             const std::vector<bool>& is_opaque,
-                             const DistanceBelow& distance_below) {
+                             const std::vector<bool>& is_opaque, const LookDown& look_down) {
   const Connected all = connected_parts(soup, adjacency, is_opaque);
   std::vector<FloatingPart> found(all.end.size());
   std::vector<char> floats(all.end.size(), 0);
@@ -120,8 +142,8 @@ FloatingParts::FloatingParts(const TriangleSoup& soup, const MeshAdjacency& adja
       Vec3 foot;
       found[k] = measured(soup, triangles, foot);
       found[k].begin = begin, found[k].end = all.end[k];
-      floats[k] = found[k].overhangs ||
-                  distance_below({foot.x, foot.y, foot.z - 0.5 * kAir_m}) > 0.5 * kAir_m;
+      floats[k] =
+          found[k].overhangs || has_air_below(foot, static_cast<std::uint32_t>(k), all, look_down);
     }
   });
   for (std::size_t k = 0; k < found.size(); ++k) {
@@ -156,6 +178,8 @@ void FloatingParts::put_in_cells() {
     cell.end = i + 1;
     const Vec3& m = parts_[i].middle;
     cell.radius = std::max(cell.radius, std::hypot(m.x - cell.middle.x, m.y - cell.middle.y));
+    cell.seen_below =
+        std::max(cell.seen_below, parts_[i].overhangs ? parts_[i].highest : parts_[i].lowest);
     const double height = 0.5 * (parts_[i].highest - parts_[i].lowest);
     cell.largest = std::max(cell.largest, std::hypot(parts_[i].radius, height));
   }
@@ -164,6 +188,7 @@ void FloatingParts::put_in_cells() {
 void FloatingParts::around(Vec3 origin, std::size_t most, std::vector<std::uint32_t>& found) const {
   std::vector<std::pair<double, std::uint32_t>> seen;
   for (const Cell& cell : cells_) {
+    if (cell.seen_below <= origin.z) continue;
     const double nearest =
         std::hypot(cell.middle.x - origin.x, cell.middle.y - origin.y) - cell.radius;
     if (cell.largest < kLeastSeen * nearest) continue;

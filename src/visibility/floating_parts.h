@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,13 +32,17 @@ struct FloatingPart {
 /// Threads  immutable after construction; may be shared.
 class FloatingParts {
  public:
-  /// Distance to what a downward ray meets first; infinite for nothing.
-  using DistanceBelow = std::function<double(Vec3)>;
+  /// What a downward ray meets first.
+  struct Below {
+    std::uint32_t triangle;
+    double distance_m;
+  };
+  using LookDown = std::function<std::optional<Below>(Vec3)>;
 
   FloatingParts() = default;
   /// @param is_opaque  [triangle]; others belong to no part
   FloatingParts(const TriangleSoup& soup, const MeshAdjacency& adjacency,
-                const std::vector<bool>& is_opaque, const DistanceBelow& distance_below);
+                const std::vector<bool>& is_opaque, const LookDown& look_down);
 
   bool empty() const { return parts_.empty(); }
   std::size_t size() const { return parts_.size(); }
@@ -54,6 +59,7 @@ class FloatingParts {
     Vec3 middle;
     double radius = 0.0;               ///< from there to the farthest of their middles, level
     double largest = 0.0;              ///< of their radii
+    double seen_below = 0.0;           ///< height below which one of them may show sky under it
     std::uint32_t begin = 0, end = 0;  ///< of the parts
   };
   void put_in_cells();

@@ -167,11 +167,12 @@ RayVisibility::RayVisibility(const TriangleSoup& soup, const std::vector<Materia
   if (!has_glass()) few_edges_ = few_sharp_edges(soup, adjacency_, kFewEdges);
   std::vector<bool> is_opaque(soup.size(), false);
   for (const std::uint32_t t : device_->opaque) is_opaque[t] = true;
-  const auto distance_below = [this](Vec3 from) {
+  const auto look_down = [this](Vec3 from) -> std::optional<FloatingParts::Below> {
     const auto hit = first_hit(from, -1.0 * kZenith);
-    return hit ? double{hit->distance_m} : std::numeric_limits<double>::infinity();
+    if (!hit) return std::nullopt;
+    return FloatingParts::Below{hit->triangle, hit->distance_m};
   };
-  floating_parts_ = FloatingParts(soup, adjacency_, is_opaque, distance_below);
+  floating_parts_ = FloatingParts(soup, adjacency_, is_opaque, look_down);
 }
 
 RayVisibility::~RayVisibility() = default;
