@@ -253,7 +253,9 @@ std::string element(const char* name, const std::string& text, const char* style
 std::string table_of(const SpeedTable& table) {
   std::string html = element("h2", table.title) + element("p", table.introduction) +
                      "\n<div class=\"scroll\"><table><thead><tr>";
-  const auto style = [&](std::size_t k) { return k < table.left_aligned ? "id" : "n"; };
+  const auto style = [&](std::size_t k) {
+    return k < table.left_aligned || table.header[k] == "remark" ? "id" : "n";
+  };
   for (std::size_t k = 0; k < table.header.size(); ++k) {
     html += element("th", table.header[k], style(k));
   }

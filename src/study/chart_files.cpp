@@ -120,7 +120,7 @@ SpeedTable all_points(const ChartResult& result) {
       "mean "
       "square of the intervals that the calculation gives itself.";
   table.header = {"stage",  "method",  "setting",  "time, s",     "spread, s", "memory, MiB",
-                  "RMS, %", "95 %, %", "worst, %", "foretold, %", ""};
+                  "RMS, %", "95 %, %", "worst, %", "foretold, %", "remark"};
   table.left_aligned = 3;
   for (const ChartPoint& p : result.points) {
     std::string remark = p.is_knee ? "knee" : p.is_on_front ? "front" : "";
