@@ -167,12 +167,10 @@ void FloatingParts::put_in_cells() {
   for (std::uint32_t i = 0; i < parts_.size(); ++i) {
     if (i == 0 || cell_of(parts_[i]) != cell_of(parts_[i - 1])) {
       const auto [column, row] = cell_of(parts_[i]);
-      cells_.push_back(
-          {{kCell_m * static_cast<double>(column), kCell_m * static_cast<double>(row), 0.0},
-           0.0,
-           0.0,
-           i,
-           i});
+      Cell& made = cells_.emplace_back();
+      made.middle = {kCell_m * static_cast<double>(column), kCell_m * static_cast<double>(row),
+                     0.0};
+      made.begin = i;
     }
     Cell& cell = cells_.back();
     cell.end = i + 1;

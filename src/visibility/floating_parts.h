@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -57,9 +58,10 @@ class FloatingParts {
   /// Parts that lie beside each other.
   struct Cell {
     Vec3 middle;
-    double radius = 0.0;               ///< from there to the farthest of their middles, level
-    double largest = 0.0;              ///< of their radii
-    double seen_below = 0.0;           ///< height below which one of them may show sky under it
+    double radius = 0.0;   ///< from there to the farthest of their middles, level
+    double largest = 0.0;  ///< of their radii
+    /// Height below which one of them may show sky under it.
+    double seen_below = -std::numeric_limits<double>::infinity();
     std::uint32_t begin = 0, end = 0;  ///< of the parts
   };
   void put_in_cells();
