@@ -20,8 +20,8 @@ constexpr double kFewPlaces = 0.1;   // of the gaps hold what is not known
 // What they tell.
 constexpr double kMissed = 0.4;       // of what the neighbours of a slice missed is missed still
 constexpr double kDoubt = 2.0;        // misses that might be of steps known by now
-constexpr double kPriorTests = 6.0;   // before any test so many count as made,
-constexpr double kPriorMiss = 0.5;    // and so much of the mean light as missed in them
+constexpr double kPriorTests = 2.0;   // before any test so many count as made,
+constexpr double kPriorMiss = 0.5;    // and so much of the light as missed in them
 constexpr double kLeastKnown = 1e-4;  // radians of azimuth, where nothing was tested
 constexpr double kPriorShare = 0.25;  // of the open sky that a hole shows
 constexpr double kBounded = 0.3;      // of its variance an even error has less far from its mean
@@ -247,7 +247,7 @@ void SensorSky::learn(double about_lux) {
       is_whole_ ? 0.0
                 : kPriorTests * std::sqrt(unseen_share()) * 2.0 * kPi / static_cast<double>(count);
   double known = 0.0, room = 0.0, filled = 0.0, room_squared = 0.0;
-  double missed = 0.0, missed_squared = 0.0;
+  double missed = 0.0, missed_squared = 0.0, tested_squared = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     const Test& test = entry_[i].test;
     // A slice close to its neighbour tells less of a wide gap.
@@ -263,6 +263,7 @@ void SensorSky::learn(double about_lux) {
     known += width;
     lesson_.miss = lesson_.miss + width * test.miss;
     lesson_.miss_squared += width * square(test.miss.lux);
+    tested_squared += width * square(to_lose(entry_[i]));
     missed += std::abs(width * test.miss.lux);
     missed_squared += square(width * test.miss.lux);
     lesson_.bend_squared += width * square(bend);
@@ -270,6 +271,11 @@ void SensorSky::learn(double about_lux) {
   // Misses as many as count: one or two of them tell of steps that are known by now.
   const double misses = missed_squared > 0.0 ? square(missed) / missed_squared : 0.0;
   lesson_.evidence = misses / (misses + kDoubt);
+  const double imagined = prior * open_squared();
+  if (tested_squared + imagined > 0.0) {
+    lesson_.relative_squared =
+        (lesson_.miss_squared + imagined * square(kPriorMiss)) / (tested_squared + imagined);
+  }
   lesson_.bend_squared /= std::max({known, prior, kLeastKnown});
   known = std::max(known + prior, kLeastKnown);
   lesson_.miss = (1.0 / known) * lesson_.miss;
@@ -287,6 +293,31 @@ void SensorSky::learn(double about_lux) {
   lesson_.share_error = scatter / square(room + 2.0 * typical);
 }
 
+/// Light per radian that a slice has, or was foretold.
+double SensorSky::to_lose(const Entry& entry) {
+  const double found = entry.slice.light.lux;
+  return std::max(found, found - entry.test.miss.lux);
+}
+
+/// Mean square of the light where some is seen.
+double SensorSky::open_squared() const {
+  double sum = 0.0, open = 0.0;
+  for (std::size_t i = 0; i < entry_.size(); ++i) {
+    if (!at(i).is_open) continue;
+    const double width = width_after(before(i)) + width_after(i);
+    open += width;
+    sum += width * square(at(i).light.lux);
+  }
+  return open > 0.0 ? sum / open : 0.0;
+}
+
+/// Of what a slice tells nothing of, lux^2 per radian^2.
+double SensorSky::unknown_squared(const Entry& entry) const {
+  const double pooled = lesson_.relative_squared * square(to_lose(entry));
+  return entry.test.kind == Test::Kind::Known ? std::max(pooled, square(entry.test.miss.lux))
+                                              : pooled;
+}
+
 /// Of the light in a gap, by what is not known of it.
 double SensorSky::gap_variance(std::size_t i) const {
   const GapLight& gap = entry_[i].gap;
@@ -294,17 +325,13 @@ double SensorSky::gap_variance(std::size_t i) const {
   if (!at(i).is_open && !at(i + 1).is_open) return 0.0;
   if (gap.is_blind) {
     return unmet_[i] + square(gap.hole_width * gap.step) / 12.0 +
-           unknown_variance(width, 2.0 * lesson_.miss_squared);
+           unknown_variance(width, lesson_.relative_squared *
+                                       (square(at(i).light.lux) + square(at(i + 1).light.lux)));
   }
-  const auto miss_squared = [&](const Entry& entry) {
-    return entry.test.kind == Test::Kind::Known
-               ? std::max(lesson_.miss_squared, square(entry.test.miss.lux))
-               : lesson_.miss_squared;
-  };
+  const Entry& next = entry_[(i + 1) % entry_.size()];
   const double known = width - gap.hole_width;
   return unmet_[i] + lesson_.share_variance * square(gap.room.lux) +
-         unknown_variance(known,
-                          miss_squared(entry_[i]) + miss_squared(entry_[(i + 1) % entry_.size()]));
+         unknown_variance(known, unknown_squared(entry_[i]) + unknown_squared(next));
 }
 
 SkySlice SensorSky::make_slice(double azimuth_rad, int checks, double weight, SliceHints before,
