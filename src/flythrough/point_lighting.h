@@ -63,7 +63,7 @@ PointLight light_points(const StoredPoints& points, const std::vector<double>& p
 /// The sun is asked for at each point. Skylight is found for one point in a cell of some eight
 /// footprints, and its ratio to what that received before goes, blended over the cells around, to
 /// the others: what hides the sky, which varies from point to point, is in the light before;
-/// what the new sky changes varies slowly. Reflected light likewise, in cells of some 48
+/// what the new sky changes varies slowly. Reflected light likewise, in cells of some 24
 /// footprints.
 ///
 /// Error    of skylight: where a cell holds points that see different parts of the sky. The sum

@@ -148,13 +148,19 @@ TEST(PlayCommand, ThePageShowsTheFramesThatTheProgramDraws) {
     element("false").click(); shot(); element("false").click();
     p.setLighting(1); shot();
     p.look(10, 0); shot();
-    p.goTo(0); p.play(true);
+    p.setLighting(0); element("samples").value = "0.5"; p.goTo(0);
+    const draft = new Uint8Array(4 * 32 * 24);
+    gl.readPixels(0, 0, 32, 24, gl.RGBA, gl.UNSIGNED_BYTE, draft);
+    const draftWidth = p.painter.canvas.width;
+    element("samples").value = "auto"; p.goTo(0);
+    const restWidth = p.painter.canvas.width;
+    p.play(true);
     let later = 0;  // a busy machine may take seconds to a frame
     for (let k = 0; k < 200 && !later; ++k) {
       await new Promise((done) => setTimeout(done, 100));
       later = p.frame;
     }
-    return {shots, later, glError: gl.getError(), hours: element("hour").options.length,
+    return {shots, draft: [...draft], draftWidth, restWidth, later, glError: gl.getError(), hours: element("hour").options.length,
             ticks: element("ticks").children.length};
   }))js");
   if (!said) GTEST_SKIP() << "skipped: no chromium";
@@ -172,6 +178,11 @@ TEST(PlayCommand, ThePageShowsTheFramesThatTheProgramDraws) {
   how.ev100 = -std::log2(1.2 * tone.exposure);
   const json& shots = value.at("shots");
   EXPECT_LE(mean_difference(shots[0], tone_map(player.frame(0), how)), 0.5);
+  EXPECT_EQ(value.at("draftWidth"), 32);
+  EXPECT_EQ(value.at("restWidth"), 64);
+  // In the lower half, which is all floor, nothing shows through one point of four.
+  const int sky = tone_map(player.frame(0), how).at(0, 0).r;
+  for (std::size_t p = 0; p < 32 * 12; ++p) EXPECT_NE(value.at("draft")[4 * p], sky) << p;
   EXPECT_LE(mean_difference(shots[1], tone_map(player.frame(5), how)), 0.5);
   EXPECT_LE(mean_difference(shots[2], false_colour(player.frame(5), tone.scale)), 0.5);
   EXPECT_LE(mean_difference(shots[3], tone_map(evening.frame(5), how)), 0.5);

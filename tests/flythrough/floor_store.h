@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 
+#include "flythrough/chunk_cuts.h"
 #include "flythrough/point_store.h"
 
 namespace tenku::testing_support {
@@ -34,7 +35,8 @@ inline StoredPoints floor_points() {
       points.borders.emplace_back();
     }
   }
-  return points;
+  return points.of(
+      cut_by_space(points, points.size()).front());  // in the order of a gathered chunk
 }
 
 inline StoreHeader floor_header() {
