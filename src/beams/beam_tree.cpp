@@ -13,6 +13,8 @@
 namespace tenku {
 namespace {
 
+/// Time of a face that is projected and clipped, in those of one that is held against a line.
+constexpr std::uint64_t kProjection = 16;
 constexpr double kOnMirror = 1e-9;  ///< metres off its plane per metre of the scene's extent
 
 /// A part of the window that a beam is to be followed through.
@@ -26,11 +28,17 @@ class Tracer {
  public:
   Tracer(const BeamFaces& faces, const BeamOptions& options) : faces_(faces), options_(options) {}
 
-  std::vector<WindowPart> divide(const BeamTree& tree, const Task& task) const {
+  /// @param work  that may still be done
+  Division divide(const BeamTree& tree, const Task& task, std::uint64_t work) const {
     const Beam& beam = tree.beams[task.beam];
     const DivisionOptions how{beam.depth >= options_.told_from, options_.slack,
-                              options_.most_regions};
-    return divide_window(task.window, seen_faces(beam, task.window), how);
+                              options_.most_regions, work};
+    const std::vector<std::uint32_t> near = near_faces(beam, task.window);
+    const std::uint64_t projection = kProjection * near.size();
+    if (projection > work) return {{}, projection};
+    Division made = divide_window(task.window, seen_faces(beam, near, task.window), how);
+    made.work += projection;
+    return made;
   }
 
  private:
@@ -41,23 +49,32 @@ class Tracer {
     return beam.view.apex_height(plane) < 0.0 ? plane : Plane{-plane.normal, -plane.offset};
   }
 
-  std::vector<SeenFace> seen_faces(const Beam& beam, const WindowPolygon& window) const {
+  /// Before the mirror; a wall in the plane of a window is seen behind it.
+  Plane near_plane(const Beam& beam) const {
+    Plane front = front_of(beam);
+    if (beam.is_through) front.offset -= 2.0 * on_mirror_m();
+    return front;
+  }
+
+  std::vector<std::uint32_t> near_faces(const Beam& beam, const WindowPolygon& window) const {
     std::vector<Plane> sides;
     for (const WindowPolygon::Corner& c : window.corners()) {
       sides.push_back(beam.view.through(c.edge.a, c.edge.b, c.edge.c));
     }
-    const bool is_first = beam.mirror == kNoFace;
-    Plane front;
-    if (!is_first) {
-      front = front_of(beam);
-      // A wall in the plane of its window is seen behind it.
-      if (beam.is_through) front.offset -= 2.0 * on_mirror_m();
-      sides.push_back(front);
+    if (beam.mirror != kNoFace) {
+      sides.push_back(near_plane(beam));
     } else if (beam.view.is_point()) {
       sides.push_back(beam.view.through(0.0, 0.0, 1.0));
     }
+    return faces_.tree().before(sides);
+  }
+
+  std::vector<SeenFace> seen_faces(const Beam& beam, const std::vector<std::uint32_t>& near,
+                                   const WindowPolygon& window) const {
+    const bool is_first = beam.mirror == kNoFace;
+    const Plane front = is_first ? Plane{} : near_plane(beam);
     std::vector<SeenFace> seen;
-    for (const std::uint32_t f : faces_.tree().before(sides)) {
+    for (const std::uint32_t f : near) {
       if (!is_first && !reaches_before(faces_[f], front)) continue;
       if (beam.is_through && faces_[f].is_pane && !reaches_before(faces_[f], front_of(beam))) {
         continue;
@@ -201,24 +218,28 @@ BeamTree trace_beams(const BeamFaces& faces, const BeamView& view,
   Gatherer gatherer(faces, options.depth, tree);
   const Tracer tracer(faces, options);
   while (!tasks.empty()) {
-    std::vector<std::vector<WindowPart>> parts(tasks.size());
+    std::vector<Division> made(tasks.size());
     std::atomic<std::size_t> count{tree.regions.size()};
+    std::atomic<std::uint64_t> work{tree.work};
     parallel_for(tasks.size(), 1, [&](IndexRange range) {
       for (std::size_t k = range.begin; k < range.end; ++k) {
         progress.stop_if_cancelled();
-        if (count > options.most_regions) return;
-        parts[k] = tracer.divide(tree, tasks[k]);
-        count += parts[k].size();
+        const std::uint64_t done = work;
+        if (count > options.most_regions || done > options.most_work) return;
+        made[k] = tracer.divide(tree, tasks[k], options.most_work - done);
+        count += made[k].parts.size();
+        work += made[k].work;
       }
     });
     tree.queries += tasks.size();
-    if (count > options.most_regions) {
+    tree.work = work;
+    if (count > options.most_regions || work > options.most_work) {
       tree.is_complete = false;
       return tree;
     }
     std::vector<Task> next;
     for (std::size_t k = 0; k < tasks.size(); ++k) {
-      gatherer.gather(tasks[k], std::move(parts[k]), next);
+      gatherer.gather(tasks[k], std::move(made[k].parts), next);
     }
     tasks = std::move(next);
   }

@@ -50,10 +50,10 @@ class Divider {
   explicit Divider(const DivisionOptions& options) : options_(options) {}
 
   void divide(WindowPolygon window, std::vector<SeenFace> faces, std::optional<SeenFace> ground) {
-    while (parts_.size() <= options_.most_parts) {
+    while (parts_.size() <= options_.most_parts && work_ <= options_.most_work) {
       take_covering(faces, ground);
       if (is_decided(faces, ground)) return add(window, faces, ground);
-      const EdgeAt at = best_edge(faces, ground);
+      const EdgeAt at = best_edge(faces);
       const WindowLine line = faces[at.face].outline.corners()[at.edge].edge;
       WindowPolygon left = window.cut(line, options_.slack, false);
       WindowPolygon right = window.cut(line.reversed(), options_.slack, false);
@@ -68,10 +68,11 @@ class Divider {
     }
   }
 
-  std::vector<WindowPart> parts() && { return std::move(parts_); }
+  Division result() && { return {std::move(parts_), work_}; }
 
  private:
-  std::vector<SeenFace> cut_all(const std::vector<SeenFace>& faces, const WindowLine& line) const {
+  std::vector<SeenFace> cut_all(const std::vector<SeenFace>& faces, const WindowLine& line) {
+    work_ += faces.size();
     std::vector<SeenFace> kept;
     for (const SeenFace& face : faces) {
       WindowPolygon outline = face.outline.cut(line, options_.slack, false);
@@ -141,7 +142,7 @@ class Divider {
 
   /// The edge to cut along: of few tried the one that parts the list best. Edges of mirrors come
   /// first where others are not to be told apart.
-  EdgeAt best_edge(const std::vector<SeenFace>& faces, const std::optional<SeenFace>&) const {
+  EdgeAt best_edge(const std::vector<SeenFace>& faces) {
     std::vector<EdgeAt> edges;
     const bool mirrors_only = !options_.divide_others && any_mirror(faces);
     for (std::size_t f = 0; f < faces.size(); ++f) {
@@ -161,7 +162,8 @@ class Divider {
     return best;
   }
 
-  double cost_of(const std::vector<SeenFace>& faces, EdgeAt at) const {
+  double cost_of(const std::vector<SeenFace>& faces, EdgeAt at) {
+    work_ += faces.size();
     const WindowLine line = faces[at.face].outline.corners()[at.edge].edge;
     double left = 0.0, right = 0.0;
     for (const SeenFace& face : faces) {
@@ -180,15 +182,16 @@ class Divider {
 
   const DivisionOptions& options_;
   std::vector<WindowPart> parts_;
+  std::uint64_t work_ = 0;
 };
 
 }  // namespace
 
-std::vector<WindowPart> divide_window(const WindowPolygon& window, std::vector<SeenFace> faces,
-                                      const DivisionOptions& options) {
+Division divide_window(const WindowPolygon& window, std::vector<SeenFace> faces,
+                       const DivisionOptions& options) {
   Divider divider(options);
   divider.divide(window, std::move(faces), std::nullopt);
-  return std::move(divider).parts();
+  return std::move(divider).result();
 }
 
 }  // namespace tenku

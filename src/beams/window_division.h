@@ -33,6 +33,13 @@ struct DivisionOptions {
                               ///< where nothing at all is seen
   double slack = 1e-7;        ///< width in the units of the window; see `WindowPolygon::cut`
   std::size_t most_parts = std::numeric_limits<std::size_t>::max();
+  std::uint64_t most_work = std::numeric_limits<std::uint64_t>::max();  ///< see `Division`
+};
+
+/// A window divided, and what it took.
+struct Division {
+  std::vector<WindowPart> parts;
+  std::uint64_t work = 0;  ///< faces that were held against a line
 };
 
 /// Divides a window into convex parts without overlap or gap.
@@ -42,10 +49,10 @@ struct DivisionOptions {
 /// the line in which they are equally near. Of two in one place a pane is taken, or else a mirror,
 /// or else the one of the lower number.
 ///
-/// @return  as many parts as allowed and one more where there would be more than `most_parts`
+/// @return  one part or one unit of work more than is allowed, where that is not enough
 /// Error    the borders lie within `slack` of where they should.
 /// Cost     n log n for n faces side by side.
-std::vector<WindowPart> divide_window(const WindowPolygon& window, std::vector<SeenFace> faces,
-                                      const DivisionOptions& options);
+Division divide_window(const WindowPolygon& window, std::vector<SeenFace> faces,
+                       const DivisionOptions& options);
 
 }  // namespace tenku

@@ -40,12 +40,14 @@ namespace tenku {
 ///          unknown things: one of width a and height h, met by no slice (probability 1 - a/w), is
 ///            an error of ah; a slice met it and its neighbours did not foretell it (if a < 2w)
 ///            with probability a/w. For widths spread evenly over 0..2w the errors squared
-///            come to w^2 h^2 / 24 and r^2 to 3 h^2 / 4. Taken is w^2 r^2 / 3, six times as much,
-///            as things much thinner than w need; r^2 the mean over all tests, or a gap's own where
-///            greater. kPriorTests imagined tests that failed stand in for those not made, times
-///            the root of the chance that the next outline is a new one (measured in towns, where
-///            that is 0.1 to 0.6). Where all that bounds the sky is known, and is what the slices
-///            have met (`sky_boundary`), there are no unknown things;
+///            come to w^2 h^2 / 24 and r^2 to 3 h^2 / 4. Taken is 2 w^2 r^2 / 5, as things much
+///            thinner than w need; r^2 from all tests, in proportion to the square of the light
+///            that a gap has to lose (from deep in a street most of it comes from along the street,
+///            where most is unknown too), or a gap's own where greater. kPriorTests imagined tests
+///            that failed stand in for those not made, times the root of the chance that the next
+///            outline is a new one (measured in towns, where that is 0.1 to 0.6). Where all that
+///            bounds the sky is known, and is what the slices have met (`sky_boundary`), there are
+///            no unknown things;
 ///          what they take away: kMissed of the mean test (smooth change: 1/6, thin things: 1;
 ///            measured in towns: 0.3 to 0.5), with a third of that as error, the less the
 ///            fewer tests have failed;
@@ -133,6 +135,7 @@ class SensorSky {
     double share_error = 0.0;                  ///< variance of the mean
     LuxAndView miss;                           ///< mean over what was known
     double miss_squared = 0.0;                 ///< the same of its square, lux^2
+    double relative_squared = 0.0;             ///< the squares of the misses by those of the light
     double evidence = 0.0;                     ///< misses that make up the mean, 0 to 1
     double bend_squared = 0.0;                 ///< the same for the mean of the neighbours
     int known = 0;
@@ -146,6 +149,9 @@ class SensorSky {
   Test test_of(std::size_t i);
   /// @param about_lux  the value, roughly
   void learn(double about_lux);
+  static double to_lose(const Entry& entry);
+  double open_squared() const;
+  double unknown_squared(const Entry& entry) const;
   double gap_variance(std::size_t i) const;
 
   void double_evenly();

@@ -74,6 +74,7 @@ struct MirrorReport {
   std::size_t mirrors = 0;    ///< faces; 0 also where nobody counted them
   std::size_t regions = 0;    ///< of beams
   std::uint64_t queries = 0;  ///< of the scene, to make them
+  std::uint64_t work = 0;     ///< see `BeamTree`
   std::vector<Finding> findings;
 };
 

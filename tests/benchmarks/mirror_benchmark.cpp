@@ -111,13 +111,13 @@ void say_times(const MirrorPicture& picture) {
   const Run run(black);
   const Run::Timed beams = run.timed(MirrorMethod::Beams), rays = run.timed(MirrorMethod::Rays),
                    any = run.timed(MirrorMethod::Auto);
-  fmt::print("\"{}\",{},{},{},{},{},{:.1f},{:.4f},{:.4f},{:.4f},{:.4f},{:.2f},{},{:.4f}",
+  fmt::print("\"{}\",{},{},{},{},{},{:.1f},{:.4f},{:.4f},{:.4f},{:.4f},{:.2f},{},{:.4f},{}",
              picture.name, picture.view.width, beams.report.mirrors, beams.report.regions,
              beams.queries, rays.queries,
              static_cast<double>(rays.queries) / static_cast<double>(beams.queries),
              beams.seconds.processor, rays.seconds.processor, beams.seconds.clock,
              rays.seconds.clock, rays.seconds.processor / beams.seconds.processor,
-             name_of(any.report.used), any.seconds.processor);
+             name_of(any.report.used), any.seconds.processor, beams.report.work);
   std::cout.flush();
 }
 
@@ -142,7 +142,7 @@ int main(int count, char** words) {
   const std::string word = count > 1 ? words[1] : "";
   fmt::print(
       "scene,side,mirrors,regions,queries_beams,queries_rays,query_ratio,processor_s_beams,"
-      "processor_s_rays,clock_s_beams,clock_s_rays,gain,auto,processor_s_auto,"
+      "processor_s_rays,clock_s_beams,clock_s_rays,gain,auto,processor_s_auto,work,"
       "away_from_edges,differing_pct,edges_pct\n");
   if (word == "--paper") {
     for (const int side : {256, 512, 1024}) {
