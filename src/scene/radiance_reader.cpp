@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <string_view>
 #include <unordered_map>
 
@@ -23,6 +24,52 @@ struct Primitive {
 constexpr std::array<std::string_view, 10> kOtherShapes{
     "ring", "sphere", "bubble", "cone", "cup", "cylinder", "tube", "source", "instance", "mesh"};
 
+using Ring = std::vector<Vec3>;
+
+/// The rings of a polygon, the largest first. Radiance has no holes: an outline goes in to a hole
+/// and out by the same seam, and so meets corners that it has met before.
+std::vector<Ring> rings_of(const std::vector<double>& numbers) {
+  std::vector<Ring> rings;
+  Ring open;
+  std::map<std::array<double, 3>, std::size_t> met;  // where in `open` a corner is
+  const auto key = [](Vec3 p) { return std::array{p.x, p.y, p.z}; };
+  const auto close_from = [&](std::size_t begin) {
+    const auto first = open.begin() + static_cast<std::ptrdiff_t>(begin);
+    if (open.size() >= begin + 3) rings.emplace_back(first, open.end());
+    std::for_each(first, open.end(), [&](Vec3 corner) { met.erase(key(corner)); });
+    open.erase(first, open.end());
+  };
+  for (std::size_t k = 0; k < numbers.size(); k += 3) {
+    const Vec3 corner{numbers[k], numbers[k + 1], numbers[k + 2]};
+    const auto before = met.find(key(corner));
+    if (before != met.end()) close_from(before->second);
+    met[key(corner)] = open.size();
+    open.push_back(corner);
+  }
+  close_from(0);
+  const auto area = [](const Ring& ring) {
+    Vec3 sum{};
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      sum = sum + cross(ring[k] - ring[0], ring[(k + 1) % ring.size()] - ring[0]);
+    }
+    return dot(sum, sum);
+  };
+  std::stable_sort(rings.begin(), rings.end(),
+                   [&](const Ring& a, const Ring& b) { return area(a) > area(b); });
+  if (rings.empty()) rings.emplace_back();
+  return rings;
+}
+
+void add_rings(Scene& scene, const std::vector<Ring>& rings) {
+  for (const Ring& ring : rings) {
+    for (const Vec3 corner : ring) {
+      scene.surfaces.vertex.push_back(static_cast<std::uint32_t>(scene.vertices.size()));
+      scene.vertices.push_back(corner);
+    }
+    end_ring(scene.surfaces);
+  }
+}
+
 class RadianceReader {
  public:
   RadianceReader(const std::string& bytes, const std::string& file)
@@ -32,6 +79,8 @@ class RadianceReader {
 
  private:
   bool find_word();
+  void pass_command();
+  void pass_text();
   std::string word();
   std::size_t count();
   void read_primitive();
@@ -54,6 +103,19 @@ void RadianceReader::tell(Severity severity, const char* code, const std::string
       {code, severity, "", file_ + ", line " + std::to_string(cursor_.line()), what, repair});
 }
 
+/// Goes to the last line of a command, which a backslash continues.
+void RadianceReader::pass_command() {
+  while (cursor_.rest().ends_with('\\') && !cursor_.at_end()) cursor_.next_line();
+}
+
+/// Passes over a text argument, which may be several words in quotation marks.
+void RadianceReader::pass_text() {
+  const std::string first = word();
+  const char mark = first[0];
+  if (mark != '"' && mark != '\'') return;
+  for (std::string last = first.substr(1); !last.ends_with(mark);) last = word();
+}
+
 /// Goes to the next word that is no comment and no command.
 bool RadianceReader::find_word() {
   for (;; cursor_.next_line()) {
@@ -63,7 +125,8 @@ bool RadianceReader::find_word() {
     if (rest.starts_with('#')) continue;
     if (!rest.starts_with('!')) return true;
     tell(Severity::Warning, "ignored_command", "a command makes part of the scene",
-         "not run: give the file that 'xform' or 'oconv' makes of it");
+         "not run: give the file that 'xform' makes of it");
+    pass_command();
   }
 }
 
@@ -83,7 +146,7 @@ std::size_t RadianceReader::count() {
 }
 
 void RadianceReader::read_arguments(Primitive& primitive) {
-  for (std::size_t left = count(); left > 0; --left) word();
+  for (std::size_t left = count(); left > 0; --left) pass_text();
   for (std::size_t left = count(); left > 0; --left) word();
   for (std::size_t left = count(); left > 0; --left) {
     if (!find_word()) cursor_.refuse("cut off");
@@ -138,12 +201,7 @@ void RadianceReader::add_polygon(const Primitive& primitive) {
                    std::to_string(primitive.numbers.size()) +
                    " numbers, which are not three points or more");
   }
-  Scene& scene = raw_.scene;
-  for (std::size_t k = 0; k < primitive.numbers.size(); k += 3) {
-    scene.surfaces.vertex.push_back(static_cast<std::uint32_t>(scene.vertices.size()));
-    scene.vertices.push_back(
-        {primitive.numbers[k], primitive.numbers[k + 1], primitive.numbers[k + 2]});
-  }
+  add_rings(raw_.scene, rings_of(primitive.numbers));
   SurfaceFacts facts;
   facts.object = object_named(primitive.id);
   facts.type = type_by_name(primitive.modifier);
@@ -159,8 +217,7 @@ void RadianceReader::add_polygon(const Primitive& primitive) {
     named.material.name = primitive.modifier;
     raw_.file_materials.push_back(named);
   }
-  end_ring(scene.surfaces);
-  end_surface(scene.surfaces, facts);
+  end_surface(raw_.scene.surfaces, facts);
 }
 
 void RadianceReader::read_primitive() {

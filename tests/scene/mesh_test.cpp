@@ -83,17 +83,20 @@ TEST(Radiance, SeamsOfHolesLeaveTheHoleOpen) {
                                 "void polygon wall 0 0 30  0 0 0  4 0 0  4 4 0  0 4 0  0 0 0"
                                 "  1 1 0  1 3 0  3 3 0  3 1 0  1 1 0\n");
   EXPECT_NEAR(measures(flatten(scene)).area, 12.0, 1e-9);
+  ASSERT_EQ(scene.surfaces.size(), 1U);
+  EXPECT_EQ(scene.surfaces.rings(0), 2U);
+  EXPECT_EQ(count_of(scene, "self_intersecting_ring"), 0U);
 }
 
 TEST(Radiance, WhatIsNotReadIsTold) {
-  const Scene scene =
-      read_text("a.rad",
-                "!xform -t 1 0 0 other.rad\nvoid trans curtain 0 0 7 1 1 1 0 0 .5 0\n"
-                "curtain sphere ball 0 0 4 0 0 0 1\n"
-                "curtain polygon p 0 0 9 0 0 0 1 0 0 0 1 0\n");
+  const Scene scene = read_text("a.rad",
+                                "!xform -t 1 0 0 \\\n  other.rad\nvoid mixfunc m 4 a b \"if(x, 1, "
+                                "0)\" . 0 0\nvoid trans curtain 0 0 7 1 1 1 0 0 .5 0\n"
+                                "curtain sphere ball 0 0 4 0 0 0 1\n"
+                                "curtain polygon p 0 0 9 0 0 0 1 0 0 0 1 0\n");
   EXPECT_EQ(count_of(scene, "ignored_command"), 1U);
   EXPECT_EQ(count_of(scene, "ignored_shape"), 1U);
-  EXPECT_EQ(count_of(scene, "unknown_material"), 1U);
+  EXPECT_EQ(count_of(scene, "unknown_material"), 2U);
   EXPECT_EQ(scene.surfaces.size(), 1U);
 }
 

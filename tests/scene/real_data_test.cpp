@@ -192,6 +192,23 @@ TEST(RealDataFormats, TokyoIsTheSameInBothVersionsOfCityGml) {
   }
 }
 
+TEST(RealDataFormats, RadianceOfficeHasThePolygonsOfTheManifest) {
+  const auto folder = data_folder();
+  if (!folder) GTEST_SKIP() << "TENKU_DATA does not name the folder of real data";
+  for (const auto& [name, polygons] : std::map<std::string, std::size_t>{{"desks", 5840},
+                                                                         {"cubefabric", 5040},
+                                                                         {"cubeframe", 2771},
+                                                                         {"extwalls", 58},
+                                                                         {"walls", 61},
+                                                                         {"windowframe", 168},
+                                                                         {"lower_glass", 4},
+                                                                         {"floor", 1}}) {
+    const Scene scene = read(*folder / "interior/frads_office/Objects" / (name + ".rad"));
+    EXPECT_EQ(scene.surfaces.size() + count_of(scene, "zero_area_face"), polygons) << name;
+    EXPECT_EQ(count_of(scene, "self_intersecting_ring"), 0U) << name;
+  }
+}
+
 TEST(RealDataFormats, FolderOfTilesIsOneCity) {
   const auto folder = data_folder();
   if (!folder) GTEST_SKIP() << "TENKU_DATA does not name the folder of real data";
