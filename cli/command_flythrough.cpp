@@ -42,7 +42,7 @@ StoreHeader header_of(const FlyThroughOptions& options, const LitScene& lit, Cam
                       const CommonOptions& common) {
   StoreHeader header;
   header.scene = options.lit.scene.scene;
-  header.scene_sha256 = sha256_of_file(options.lit.scene.scene);
+  header.scene_sha256 = sha256_of_input(options.lit.scene.scene);
   header.software = std::string(software_name());
   if (lit.scene().georeference) header.crs = lit.scene().georeference->crs;
   header.file_origin = lit.scene().frame.origin();
@@ -153,7 +153,7 @@ int relight_store(FlyThroughOptions options, const CommandContext& context) {
   }
   const LitScene lit = load_lit_scene(options.lit, context.progress);
   const RelightResult result =
-      relight(options.relight, sha256_of_file(options.lit.scene.scene),
+      relight(options.relight, sha256_of_input(options.lit.scene.scene),
               lighting_of(lit.sky(), lit.source(), options.lit.site.time),
               {options.lit.tolerance_pct, options.lit.bounces, context.options.seed}, lit.engines(),
               lit.source(), context.progress);

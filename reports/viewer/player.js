@@ -1,4 +1,6 @@
 // The page: what is played, and where the camera is.
+const kSlow = 15;  // frames a second below which drafts are drawn in motion
+
 class Player {
   constructor(facts, painter) {
     Object.assign(this, {facts, painter, frame: 0, lighting: 0, free: null, isPlaying: false});
@@ -15,9 +17,12 @@ class Player {
 
   draw() {
     const {facts} = this, wanted = element("samples").value;
-    const moves = this.isPlaying || this.keys.size > 0;
-    const texels = wanted === "auto" ? (moves ? 1 : 2) : Number(wanted);
-    const camera = cameraOf(this.view(), facts.width, facts.height);
+    const moves = this.isPlaying || this.isDragged || this.keys.size > 0;
+    const moving = this.isSlow ? 0.5 : 1;
+    const across = wanted === "auto" ? (moves ? moving : 2) : Number(wanted);
+    const texels = Math.max(1, across), {canvas} = this.painter;
+    this.painter.setDraft(across < 1);
+    const camera = cameraOf(this.view(), canvas.width, canvas.height);
     this.drawn = this.painter.draw(camera, {
       texels, isFree: this.free !== null, lighting: this.lighting,
       light: facts.lightings[this.lighting], isFalse: element("false").checked,
@@ -66,12 +71,17 @@ class Player {
       return;
     }
     this.draw();
-    this.shown = [...this.shown.filter((t) => t > now - 2000), now];
-    if (this.shown.length > 2) {
-      const rate = 1000 * (this.shown.length - 1) / (now - this.shown[0]);
-      element("rate").textContent = `${rate.toFixed(1)} frames/s`;
-    }
+    this.noteRate(now);
     requestAnimationFrame((next) => this.step(next));
+  }
+
+  // A machine once found slow stays so: a picture that went back and forth would flicker.
+  noteRate(now) {
+    this.shown = [...this.shown.filter((t) => t > now - 2000), now];
+    if (this.shown.length < 3) return;
+    const rate = 1000 * (this.shown.length - 1) / (now - this.shown[0]);
+    element("rate").textContent = `${rate.toFixed(1)} frames/s`;
+    if (rate < kSlow) this.isSlow = true;
   }
 
   leavePath() {
@@ -110,7 +120,10 @@ class Player {
     }
     const pace = 0.05;
     this.move(pace * held("d", "a"), pace * held("e", "q"), pace * held("w", "s"));
-    requestAnimationFrame(() => this.walk());
+    requestAnimationFrame((now) => {
+      this.noteRate(now);
+      this.walk();
+    });
   }
 
   // Frames per second of `count` frames drawn one after another, each waited for.
@@ -144,8 +157,14 @@ function listen(player) {
   on("later", "click", () => player.setLighting(player.lighting + 1));
   canvas.addEventListener("pointerdown", (event) => canvas.setPointerCapture(event.pointerId));
   canvas.addEventListener("pointermove", (event) => {
-    if (event.buttons) player.look(event.movementX, event.movementY);
+    player.isDragged = event.buttons !== 0;
+    if (player.isDragged) player.look(event.movementX, event.movementY);
   });
+  for (const event of ["pointerup", "pointercancel"]) {
+    canvas.addEventListener(event, () => {
+      if (player.isDragged) player.isDragged = false, player.draw();
+    });
+  }
   addEventListener("keydown", (event) => {
     if (/^(INPUT|SELECT|BUTTON)$/.test(event.target.tagName)) return;
     const key = event.key.toLowerCase();
@@ -155,7 +174,7 @@ function listen(player) {
       player.goTo(player.frame + (key === "arrowright" ? 1 : -1));
     } else if ("wasdqe".includes(key)) {
       player.keys.add(key);
-      if (!player.isWalking) player.isWalking = true, player.walk();
+      if (!player.isWalking) player.isWalking = true, player.shown = [], player.walk();
     } else return;
     event.preventDefault();
   });

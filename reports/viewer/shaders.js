@@ -10,7 +10,7 @@ layout(location=2) in uvec4 aBorders;
 layout(location=3) in uint aColour;
 uniform vec3 uOrigin, uStep, uRight, uDown, uForward;
 uniform vec2 uFrom, uSize, uCoarsest;
-uniform float uPixel, uMargin, uTexels, uLargest;
+uniform float uPixel, uMargin, uTexels, uLargest, uGrow;
 flat out vec4 vDisc;
 flat out vec4 vDepth;
 flat out vec3 vBorder0, vBorder1;
@@ -42,7 +42,7 @@ void main() {
   if (!(depth > 1e-4)) return;
   bool isEdge = (aPlace.w & 1u) != 0u;
   float footprint = exp2((float(aPlace.w >> 1) - 1.0) / 512.0 - 20.0);
-  float size = footprint / (uPixel * depth);
+  float shown = uGrow * footprint, size = shown / (uPixel * depth);
   if (size > (isEdge ? uCoarsest.y : uCoarsest.x)) return;
   vec3 n = normalOf(vec2(aNormal) / 32767.0);
   float above = dot(n, d);
@@ -50,7 +50,7 @@ void main() {
   vec2 at = vec2(dot(d, uRight), dot(d, uDown)) / (depth * uPixel) - uFrom;
   float radius = min(0.5 * max(kLeast, kOverlap * size), uLargest);
   if (any(lessThan(at + radius, vec2(0.0))) || any(greaterThan(at - radius, uSize))) return;
-  float nearness = 1.0 / depth, turned = footprint * nearness * nearness;
+  float nearness = 1.0 / depth, turned = shown * nearness * nearness;
   vDisc = vec4(at, radius * radius, nearness);
   vDepth = vec4(uPixel * dot(n, uRight) / above, uPixel * dot(n, uDown) / above, kSteep * turned,
                 kCone * turned / (radius * radius));
@@ -105,7 +105,7 @@ uniform sampler2D uMap;
 uniform vec3 uRight, uDown, uCorner, uBelow;
 uniform float uPixel, uExposure;
 uniform vec3 uScale;
-uniform int uMargin, uTexels, uHeight, uFalse;
+uniform int uMargin, uTexels, uHeight, uFalse, uFill;
 out vec4 oColour;
 ${kSamplePlaces}
 const uint kNothing = 0xffffffffu;
@@ -141,12 +141,26 @@ vec3 falseColour(vec3 light) {
   int last = textureSize(uMap, 0).x - 1;
   return texelFetch(uMap, ivec2(int(clamp(place, 0.0, 1.0) * float(last) + 0.5), 0), 0).rgb;
 }
+// Where points are left out a pixel may stay empty: with three of four beside it on a surface, it
+// is on it.
+uint filled(ivec2 texel) {
+  uint found = kNothing;
+  int empty = 0;
+  for (int k = 0; k < 4; ++k) {
+    int step = 2 * (k & 1) - 1;
+    uint code = texelFetch(uItems, texel + (k < 2 ? ivec2(step, 0) : ivec2(0, step)), 0).r;
+    if (code == kNothing) ++empty;
+    else found = code;
+  }
+  return empty > 1 ? kNothing : found;
+}
 void main() {
   ivec2 pixel = ivec2(int(gl_FragCoord.x), uHeight - 1 - int(gl_FragCoord.y));
   vec3 sum = vec3(0.0);
   for (int s = 0; s < uTexels * uTexels; ++s) {
     ivec2 texel = (pixel + uMargin) * uTexels + ivec2(s % uTexels, s / uTexels);
     uint code = texelFetch(uItems, texel, 0).r;
+    if (uFill != 0 && code == kNothing) code = filled(texel);
     vec2 place = vec2(pixel) + (uTexels > 1 ? kPlaces[s] : vec2(0.5));
     sum += code == kNothing ? sky(place) : colourOf(code);
   }

@@ -6,6 +6,9 @@ const cross = (a, b) =>
 const unit = (a) => a.map((x) => x / Math.hypot(...a));
 const element = (id) => document.getElementById(id);
 const kMargin = 2, kNothing = 0xffffffff;
+// A draft has half the pixels across, and of points that lie beside each other draws one of four,
+// twice as wide.
+const kDraftOf = 4, kDraftGrowth = 2;
 
 async function inflated(id) {
   const text = atob(element(id).textContent);
@@ -72,7 +75,8 @@ class PointPainter {
     if (!gl) throw new Error("This browser has no WebGL 2.");
     this.gl = gl, this.facts = facts, this.canvas = canvas;
     this.chunks = [], this.targets = {};
-    canvas.width = facts.width, canvas.height = facts.height;
+    canvas.style.aspectRatio = `${facts.width} / ${facts.height}`;
+    this.setDraft(false);
     this.points = this.program(kPointShader, kDiscShader);
     this.show = this.program(kScreenTriangle, kShowShader);
     this.empty = gl.createVertexArray();
@@ -103,6 +107,14 @@ class PointPainter {
     return {program, at};
   }
 
+  setDraft(isDraft) {
+    const {canvas, facts} = this, across = isDraft ? kDraftGrowth : 1;
+    const width = Math.ceil(facts.width / across), height = Math.ceil(facts.height / across);
+    this.isDraft = isDraft;
+    if (canvas.width !== width) canvas.width = width;
+    if (canvas.height !== height) canvas.height = height;
+  }
+
   texture(format, width, height, layout, type, data) {
     const gl = this.gl, texture = gl.createTexture();
     gl.bindTexture(gl.TEXTURE_2D, texture);
@@ -126,27 +138,36 @@ class PointPainter {
     return buffer;
   }
 
-  // One array of the points for each sun and sky, which differ in their colours.
+  // One point of `every`.
+  array(points, colour, every) {
+    const gl = this.gl, array = gl.createVertexArray();
+    gl.bindVertexArray(array);
+    gl.bindBuffer(gl.ARRAY_BUFFER, points);
+    gl.vertexAttribIPointer(0, 4, gl.UNSIGNED_SHORT, 16 * every, 0);
+    gl.vertexAttribIPointer(1, 2, gl.SHORT, 16 * every, 8);
+    gl.vertexAttribIPointer(2, 4, gl.UNSIGNED_BYTE, 16 * every, 12);
+    gl.bindBuffer(gl.ARRAY_BUFFER, colour);
+    gl.vertexAttribIPointer(3, 1, gl.UNSIGNED_INT, 4 * every, 0);
+    for (let k = 0; k < 4; ++k) gl.enableVertexAttribArray(k);
+    gl.bindVertexArray(null);
+    return array;
+  }
+
+  // Arrays of the points for each sun and sky, which differ in their colours: of all, and of a
+  // draft. Points come ordered by place, so that one of four leaves no part out.
   addChunk(blocks, geometry, colours) {
-    const gl = this.gl, points = this.buffer(geometry);
-    const arrays = colours.map((codes) => {
-      const array = gl.createVertexArray(), colour = this.buffer(codes);
-      gl.bindVertexArray(array);
-      gl.bindBuffer(gl.ARRAY_BUFFER, points);
-      gl.vertexAttribIPointer(0, 4, gl.UNSIGNED_SHORT, 16, 0);
-      gl.vertexAttribIPointer(1, 2, gl.SHORT, 16, 8);
-      gl.vertexAttribIPointer(2, 4, gl.UNSIGNED_BYTE, 16, 12);
-      gl.bindBuffer(gl.ARRAY_BUFFER, colour);
-      gl.vertexAttribIPointer(3, 1, gl.UNSIGNED_INT, 4, 0);
-      for (let k = 0; k < 4; ++k) gl.enableVertexAttribArray(k);
-      gl.bindVertexArray(null);
-      return array;
-    });
-    this.chunks.push({blocks, arrays});
+    const points = this.buffer(geometry), arrays = [], drafts = [];
+    for (const codes of colours) {
+      const colour = this.buffer(codes);
+      arrays.push(this.array(points, colour, 1));
+      drafts.push(this.array(points, colour, kDraftOf));
+    }
+    this.chunks.push({blocks, arrays, drafts});
   }
 
   target(texels) {
-    if (this.targets[texels]) return this.targets[texels];
+    const name = `${texels} ${this.canvas.width}`;
+    if (this.targets[name]) return this.targets[name];
     const gl = this.gl, width = texels * (this.canvas.width + 2 * kMargin),
           height = texels * (this.canvas.height + 2 * kMargin);
     const items = this.texture(gl.R32UI, width, height, gl.RED_INTEGER, gl.UNSIGNED_INT, null);
@@ -159,7 +180,7 @@ class PointPainter {
     if (gl.checkFramebufferStatus(gl.FRAMEBUFFER) !== gl.FRAMEBUFFER_COMPLETE) {
       throw new Error("This browser cannot draw into a texture of points.");
     }
-    return this.targets[texels] = {frame, items, width, height};
+    return this.targets[name] = {frame, items, width, height};
   }
 
   drawPoints(camera, state, target) {
@@ -183,15 +204,18 @@ class PointPainter {
     gl.uniform1f(at.uPixel, camera.pixel);
     gl.uniform1f(at.uMargin, kMargin);
     gl.uniform1f(at.uTexels, state.texels);
+    gl.uniform1f(at.uGrow, this.isDraft ? kDraftGrowth : 1);
+    const every = this.isDraft ? kDraftOf : 1;  // divides what blocks but the last hold
     let drawn = 0;
     for (const chunk of this.chunks) {
-      gl.bindVertexArray(chunk.arrays[state.lighting]);
+      gl.bindVertexArray((this.isDraft ? chunk.drafts : chunk.arrays)[state.lighting]);
       for (const block of chunk.blocks) {
         if (!mayShow(camera, block, width, height, coarsest[0])) continue;
+        const points = Math.ceil(block.points / every);
         gl.uniform3fv(at.uOrigin, sum(block.origin, camera.eye, -1));
         gl.uniform3fv(at.uStep, block.step);
-        gl.drawArrays(gl.POINTS, block.first, block.points);
-        drawn += block.points;
+        gl.drawArrays(gl.POINTS, block.first / every, points);
+        drawn += points;
       }
     }
     return drawn;
@@ -223,6 +247,7 @@ class PointPainter {
     gl.uniform1i(at.uMargin, kMargin);
     gl.uniform1i(at.uTexels, state.texels);
     gl.uniform1i(at.uHeight, this.canvas.height);
+    gl.uniform1i(at.uFill, this.isDraft ? 1 : 0);
     gl.uniform1i(at.uFalse, state.isFalse ? 1 : 0);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
     return drawn;

@@ -256,14 +256,17 @@ class LightChange {
                                    engines_.rays());
     const auto& chosen = sharing.calculated();
     const SensorIlluminance now = by.light(sensors_of(sensors_, chosen), 1.0, progress);
-    SensorIlluminance few_now(chosen.size()), few_then(chosen.size());
+    // Blends are linear: one serves both.
+    SensorIlluminance few(chosen.size()), all(points_.size());
     for (std::size_t k = 0; k < chosen.size(); ++k) {
-      few_now.set_reflected(k, Rgb::grey(now.sky_lux[k]));
-      few_then.set_reflected(k, Rgb::grey(double{before_.sky_lux[chosen[k]]}));
+      few.set_reflected(k, {now.sky_lux[k], double{before_.sky_lux[chosen[k]]}, 0.0});
     }
+    sharing.spread(few, all);
     std::vector<double> sky;
-    const std::vector<Rgb> ratio = blended_ratio(sharing, few_now, few_then);
-    for (std::size_t i = 0; i < ratio.size(); ++i) sky.push_back(before_.sky_lux[i] * ratio[i].g);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const Rgb both = all.reflected_rgb[i];
+      sky.push_back(before_.sky_lux[i] * ratio_of(both.r, both.g));
+    }
     return sky;
   }
 

@@ -90,19 +90,20 @@ bool ReflectedSharing::has_representative(std::size_t sensor) const {
 }
 
 ReflectedSharing::Blend ReflectedSharing::blend_at(std::size_t sensor,
+                                                   const std::vector<std::uint32_t>& around,
                                                    const SensorIlluminance& of_calculated) const {
   Rgb rgb{};
   double weight = 0.0, lux = 0.0, squares = 0.0, errors = 0.0, squared_errors = 0.0;
-  cells_.around(sensor, [&](std::uint32_t r) {
+  for (const std::uint32_t r : around) {
     const std::size_t other = calculated_[r];
-    if (!is_like(sensor, other) || !is_seen(sensor, other)) return;
+    if (!is_like(sensor, other) || !is_seen(sensor, other)) continue;
     const double away = length(layout_.place[other] - layout_.place[sensor]) / layout_.reach;
     const double w = std::exp(-away * away) + 1e-6;
     const double value = of_calculated.reflected_lux[r], error = of_calculated.error_lux[r];
     rgb = rgb + w * of_calculated.reflected_rgb[r];
     weight += w, lux += w * value, squares += w * value * value;
     errors += w * error, squared_errors += std::pow(w * error, 2);
-  });
+  }
   Blend blend;  // its own representative is always among them
   blend.lux = lux / weight;
   blend.rgb = (1.0 / weight) * rgb;
@@ -118,7 +119,7 @@ double ReflectedSharing::interval_per_scale(bool flat,
   std::vector<double> value, scale;
   for (std::size_t r = representatives_; r < calculated_.size(); ++r) {
     if (is_flat(sensors_.normal[calculated_[r]]) != flat) continue;
-    const Blend blend = blend_at(calculated_[r], of_calculated);
+    const Blend blend = blend_at(calculated_[r], cells_.around(calculated_[r]), of_calculated);
     if (!(blend.scale_lux > 0.0)) continue;
     pilots.lux.push_back(of_calculated.reflected_lux[r]);
     value.push_back(blend.lux);
@@ -131,13 +132,14 @@ void ReflectedSharing::spread(const SensorIlluminance& of_calculated,
                               SensorIlluminance& all) const {
   const std::array<double, 2> factor{interval_per_scale(false, of_calculated),
                                      interval_per_scale(true, of_calculated)};
-  parallel_for(sensors_.size(), 256, [&](IndexRange range) {
+  parallel_for(sensors_.size(), 1024, [&](IndexRange range) {
+    CellsAround around(cells_);  // neighbours in the list mostly share a cell
     for (std::size_t s = range.begin; s < range.end; ++s) {
       const std::uint32_t own = own_[s];
       const Blend blend =
           own != kNone ? Blend{of_calculated.reflected_lux[own], of_calculated.error_lux[own], 0.0,
                                of_calculated.reflected_rgb[own]}
-                       : blend_at(s, of_calculated);
+                       : blend_at(s, around.of(s), of_calculated);
       const bool is_measured = own == kNone && layout_.is_measured;
       const double error =
           is_measured ? factor[is_flat(sensors_.normal[s])] * blend.scale_lux : blend.error_lux;

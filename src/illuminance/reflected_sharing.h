@@ -68,7 +68,9 @@ class ReflectedSharing {
   bool is_seen(std::size_t sensor, std::size_t other) const;
   bool has_representative(std::size_t sensor) const;
   double interval_per_scale(bool flat, const SensorIlluminance& of_calculated) const;
-  Blend blend_at(std::size_t sensor, const SensorIlluminance& of_calculated) const;
+  /// @param around  places among those calculated, of the cells around it
+  Blend blend_at(std::size_t sensor, const std::vector<std::uint32_t>& around,
+                 const SensorIlluminance& of_calculated) const;
 
   const Sensors& sensors_;
   const RayVisibility& rays_;

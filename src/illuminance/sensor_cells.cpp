@@ -29,6 +29,12 @@ SensorCells::SensorCells(std::vector<Vec3> place, std::vector<std::uint64_t> sur
   }
 }
 
+std::vector<std::uint32_t> SensorCells::around(std::size_t sensor) const {
+  std::vector<std::uint32_t> values;
+  around(sensor, [&](std::uint32_t value) { values.push_back(value); });
+  return values;
+}
+
 std::uint64_t SensorCells::key(std::size_t sensor, Vec3 steps_away) const {
   const Vec3 place = place_[sensor];
   return mix_rounded(surface_[sensor],

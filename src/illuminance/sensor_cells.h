@@ -37,6 +37,10 @@ class SensorCells {
       for (const std::uint32_t value : values_at(key(sensor, step))) take(value);
     }
   }
+  /// All of them.
+  std::vector<std::uint32_t> around(std::size_t sensor) const;
+  /// Equal for sensors of one surface in one cell: what lies around them is the same.
+  std::uint64_t cell_of(std::size_t sensor) const { return key(sensor, {}); }
 
  private:
   std::uint64_t key(std::size_t sensor, Vec3 steps_away) const;
@@ -47,6 +51,23 @@ class SensorCells {
   int reach_;
   std::vector<Vec3> steps_;  ///< to the cells in reach
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> in_cell_;
+};
+
+/// What lies around sensors, found once for each of their cells.
+/// Threads  one.
+class CellsAround {
+ public:
+  /// @param cells  kept by reference; nothing is added meanwhile
+  explicit CellsAround(const SensorCells& cells) : cells_(cells) {}
+  const std::vector<std::uint32_t>& of(std::size_t sensor) {
+    const auto [found, is_new] = of_cell_.try_emplace(cells_.cell_of(sensor));
+    if (is_new) found->second = cells_.around(sensor);
+    return found->second;
+  }
+
+ private:
+  const SensorCells& cells_;
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> of_cell_;
 };
 
 /// Ground and flat roofs, as against walls and pitched roofs.

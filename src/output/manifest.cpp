@@ -54,8 +54,16 @@ std::string processor_name() {
 }  // namespace
 
 ManifestInput manifest_input(const std::filesystem::path& path) {
-  std::string hash = sha256_of_file(path);
-  return {path.string(), std::move(hash), std::filesystem::file_size(path)};
+  std::string hash = sha256_of_input(path);
+  std::uintmax_t bytes = 0;
+  if (!std::filesystem::is_directory(path)) {
+    bytes = std::filesystem::file_size(path);
+  } else {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(path)) {
+      if (entry.is_regular_file()) bytes += entry.file_size();
+    }
+  }
+  return {path.string(), std::move(hash), bytes};
 }
 
 Machine this_machine() {

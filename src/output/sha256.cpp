@@ -2,6 +2,7 @@
 
 #include <openssl/evp.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <vector>
@@ -61,6 +62,20 @@ std::string sha256_of_file(const std::filesystem::path& path) {
     throw InputError("cannot read " + path.string());
   }
   return hash.digits();
+}
+
+std::string sha256_of_input(const std::filesystem::path& path) {
+  if (!std::filesystem::is_directory(path)) return sha256_of_file(path);
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(path)) {
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  std::string lines;
+  for (const auto& file : files) {
+    lines += sha256_of_file(file) + "  " + file.lexically_relative(path).string() + "\n";
+  }
+  return sha256_of(lines);
 }
 
 }  // namespace tenku

@@ -16,4 +16,9 @@ std::string sha256_of(std::string_view bytes);
 /// @throws InputError if it cannot be read
 std::string sha256_of_file(const std::filesystem::path& path);
 
+/// SHA-256 of a file; of a folder, that of the list that `sha256sum` makes of the files in it, by
+/// name.
+/// @throws InputError if a file cannot be read
+std::string sha256_of_input(const std::filesystem::path& path);
+
 }  // namespace tenku

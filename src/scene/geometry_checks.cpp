@@ -161,8 +161,9 @@ std::optional<Finding> flat_buildings(const RawScene& raw) {
     bool is_building = false;
   };
   std::vector<Heights> heights(scene.objects.size());
-  // In OBJ all that has no other name is a building; grounds and roads by name are typed so.
-  const bool by_type = scene.format == "OBJ";
+  // In a plain mesh all that has no other name is a building; grounds and roads by name are typed
+  // so.
+  const bool by_type = raw.is_mesh;
   for (std::size_t s = 0; s < surfaces.size(); ++s) {
     if (raw.is_building[surfaces.object[s]] == 0) continue;
     Heights& h = heights[root_of(scene, surfaces.object[s])];

@@ -5,10 +5,13 @@
 #include <GeographicLib/Geodesic.hpp>
 #include <cctype>
 #include <cmath>
+#include <map>
+#include <string_view>
 #include <vector>
 
 #include "core/error.h"
 #include "core/handle.h"
+#include "scene/axis_order.h"
 
 namespace tenku {
 namespace {
@@ -30,9 +33,38 @@ bool all_digits(const std::string& text) {
   return !text.empty();
 }
 
+/// The German surveys' names of their plane systems: `DE_DHDN_3GK4`, `ETRS89_UTM32`. Empty for
+/// others.
+std::string adv_name(const std::string& text) {
+  constexpr std::string_view kPrefix = "urn:adv:crs:";
+  if (!text.starts_with(kPrefix)) return "";
+  const std::string plane = text.substr(kPrefix.size(), text.find('*') - kPrefix.size());
+  static const std::map<std::string, int> kCodes{
+      {"DE_DHDN_3GK2", 31466}, {"DE_DHDN_3GK3", 31467}, {"DE_DHDN_3GK4", 31468},
+      {"DE_DHDN_3GK5", 31469}, {"ETRS89_UTM31", 25831}, {"ETRS89_UTM32", 25832},
+      {"ETRS89_UTM33", 25833},
+  };
+  const auto code = kCodes.find(plane);
+  return code == kCodes.end() ? "" : "EPSG:" + std::to_string(code->second);
+}
+
+/// The plane part of Japan's plane rectangular systems I to XIII with heights, EPSG:10162 to 10174,
+/// which older registries do not have; other names as they are.
+std::string without_japanese_heights(const std::string& name) {
+  constexpr int kFirst = 10162, kLast = 10174, kFirstPlane = 6669;
+  const auto colon = name.rfind(':');
+  const std::string digits = name.substr(colon == std::string::npos ? 0 : colon + 1);
+  if (name.find("EPSG") == std::string::npos || !all_digits(digits) || digits.size() != 5)
+    return name;
+  const int code = std::stoi(digits);
+  return code < kFirst || code > kLast ? name
+                                       : "EPSG:" + std::to_string(code - kFirst + kFirstPlane);
+}
+
 /// `http://www.opengis.net/def/crs/EPSG/0/6677` as `EPSG:6677`; PROJ reads names and URNs itself.
 std::string proj_name(const std::string& text) {
   if (all_digits(text)) return "EPSG:" + text;
+  if (std::string adv = adv_name(text); !adv.empty()) return adv;
   const auto at = text.find("/def/crs/");
   if (at == std::string::npos) return text;
   const std::string rest = text.substr(at + 9);
@@ -42,7 +74,7 @@ std::string proj_name(const std::string& text) {
 }
 
 Projection create(PJ_CONTEXT* context, const std::string& text) {
-  const std::string name = proj_name(text);
+  const std::string name = without_japanese_heights(proj_name(text));
   // Without a colon (`EPSG:1`, a URN), a sign (`+proj`) or a bracket (WKT) PROJ guesses by title.
   const bool is_formal = name.find_first_of(":+[") != std::string::npos;
   Projection crs(is_formal ? proj_create(context, name.c_str()) : nullptr);
@@ -152,6 +184,18 @@ Crs Crs::parse(const std::string& text) {
   }
   if (!crs.geographic) crs.metres_per_unit = axis_metres(context.get(), flat.get());
   return crs;
+}
+
+bool is_northing_first(const std::string& crs) {
+  const Context context = make_context();
+  const Projection flat = horizontal_part(context.get(), create(context.get(), crs));
+  const Projection system(proj_crs_get_coordinate_system(context.get(), flat.get()));
+  const char* direction = nullptr;
+  if (system) {
+    proj_cs_get_axis_info(context.get(), system.get(), 0, nullptr, nullptr, &direction, nullptr,
+                          nullptr, nullptr, nullptr);
+  }
+  return direction != nullptr && std::string_view(direction) == "north";
 }
 
 Georeference Crs::at(Vec3 p) const {

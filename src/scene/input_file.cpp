@@ -110,6 +110,15 @@ std::string read_input_file(const fs::path& path) {
   return bytes;
 }
 
+void for_each_piece(const fs::path& path, const std::function<void(std::string_view)>& use) {
+  constexpr std::size_t kPiece = std::size_t{1} << 18U;
+  UnpackedFile file(path);
+  std::string piece(kPiece, '\0');
+  while (const std::size_t got = file.read(piece.data(), kPiece)) {
+    use(std::string_view(piece).substr(0, got));
+  }
+}
+
 InputLines::InputLines(const fs::path& path) : file_(std::make_unique<UnpackedFile>(path)) {
   unpack_ahead();
 }

@@ -2,15 +2,22 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <future>
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace tenku {
 
 /// Bytes of a file; those of a gzip file (told by its first bytes) unpacked.
 /// @throws InputError if it is absent, a folder, not readable, empty, or a damaged gzip file
 std::string read_input_file(const std::filesystem::path& path);
+
+/// Calls `use` on one piece of a file after the other, unpacked; no more than one is in memory.
+/// @throws InputError as `read_input_file`
+void for_each_piece(const std::filesystem::path& path,
+                    const std::function<void(std::string_view)>& use);
 
 class UnpackedFile;
 

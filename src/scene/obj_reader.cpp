@@ -17,6 +17,7 @@ class ObjReader {
  public:
   explicit ObjReader(const fs::path& path) : path_(path), file_(path.string()), cursor_("", file_) {
     raw_.scene.format = "OBJ";
+    raw_.is_mesh = true;
     raw_.scene.lods = {""};
   }
 

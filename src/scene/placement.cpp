@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.h"
+#include "scene/axis_order.h"
+#include "scene/repair.h"
 
 namespace tenku {
 namespace {
@@ -40,13 +43,11 @@ FileFrame frame_of(const GridMap& map, Vec3 grid_origin, Angle clockwise, double
                             map.scale * upward * a.height});
 }
 
-bool contains(const Crs& crs, double latitude, double longitude) {
+bool contains(const Crs& crs, double latitude, double longitude, double beyond = kDegreesBeyond) {
   const bool wraps = crs.west > crs.east;  // across the date line
-  const bool between =
-      wraps ? longitude >= crs.west - kDegreesBeyond || longitude <= crs.east + kDegreesBeyond
-            : longitude >= crs.west - kDegreesBeyond && longitude <= crs.east + kDegreesBeyond;
-  return between && latitude >= crs.south - kDegreesBeyond &&
-         latitude <= crs.north + kDegreesBeyond;
+  const bool is_east = longitude >= crs.west - beyond, is_west = longitude <= crs.east + beyond;
+  return (wraps ? is_east || is_west : is_east && is_west) && latitude >= crs.south - beyond &&
+         latitude <= crs.north + beyond;
 }
 
 bool is_latitude_first(const Crs& crs, Vec3 centre, RawScene& raw) {
@@ -55,15 +56,50 @@ bool is_latitude_first(const Crs& crs, Vec3 centre, RawScene& raw) {
     throw InputError("(" + std::to_string(centre.x) + ", " + std::to_string(centre.y) +
                      ") is no place in " + crs.id + " (" + crs.name + ")");
   }
-  const bool latitude_first = first && !second;
+  // Where both orders are possible a name of the registry decides; else longitude is first.
+  const bool latitude_first =
+      first && (!second || (raw.has_registry_axes && is_northing_first(crs.id)));
   raw.findings.add(
       {"degrees", Severity::Note, "", "", "the coordinates are degrees (" + crs.id + ")",
        latitude_first ? "read as latitude, longitude" : "read as longitude, latitude"});
   return latitude_first;
 }
 
+double median(const std::vector<Vec3>& points, double Vec3::*coordinate) {
+  std::vector<double> values;
+  values.reserve(points.size());
+  for (const Vec3 p : points) values.push_back(p.*coordinate);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Drops surfaces with a vertex that is degrees away from most: a projection of the scene cannot
+/// hold them.
+void drop_misplaced(RawScene& raw) {
+  Scene& scene = raw.scene;
+  const Vec3 middle{median(scene.vertices, &Vec3::x), median(scene.vertices, &Vec3::y), 0.0};
+  const auto is_misplaced = [&](std::uint32_t v) {
+    const Vec3 p = scene.vertices[v];
+    return std::abs(p.x - middle.x) > kDegreesBeyond || std::abs(p.y - middle.y) > kDegreesBeyond;
+  };
+  const std::size_t dropped = drop_surfaces(raw, [&](std::size_t s) {
+    const Surfaces& surfaces = scene.surfaces;
+    const auto first = surfaces.vertex.begin() + surfaces.first_vertex[surfaces.first_ring[s]];
+    const auto last = surfaces.vertex.begin() + surfaces.first_vertex[surfaces.first_ring[s + 1]];
+    if (std::none_of(first, last, is_misplaced)) return false;
+    raw.findings.add({"misplaced_surface", Severity::Error, raw.object_of(s), "",
+                      "a vertex lies more than 2 degrees from most of the scene", "left out"});
+    return true;
+  });
+  if (dropped == 0) return;
+  merge_vertices(raw);
+  scene.extent = extent_of(scene.vertices);
+}
+
 void place_geographic(RawScene& raw, const Crs& crs, const ReadOptions& options) {
   if (options.scale != 1.0) throw InputError("--scale makes no sense for coordinates in degrees");
+  drop_misplaced(raw);
   const Extent box = raw.scene.extent;
   Vec3 centre = 0.5 * (box.min + box.max);
   centre = {1e-6 * std::round(1e6 * centre.x), 1e-6 * std::round(1e6 * centre.y), 0.0};
@@ -83,6 +119,29 @@ Vec3 grid_centre(const RawScene& raw, const GridMap& map) {
   Vec3 centre = rounded(map.to_grid(0.5 * (box.min + box.max)));
   if (std::abs(centre.z) < kHighest_m) centre.z = 0.0;
   return centre;
+}
+
+/// A file whose reference system has the axes of a registry that has northing first: easting and
+/// northing change places, unless only that order lies where the system is used.
+void choose_grid_axes(RawScene& raw, const Crs& crs, GridMap& map) {
+  if (!raw.has_registry_axes || raw.axes_are_given || !is_northing_first(crs.id)) return;
+  const auto is_inside = [&](const GridMap& candidate) {
+    try {
+      const Location at = crs.at(grid_centre(raw, candidate)).origin;
+      return contains(crs, at.latitude.in_degrees(), at.longitude.in_degrees(), 0.0);
+    } catch (const InputError&) {
+      return false;
+    }
+  };
+  GridMap swapped = map;
+  std::swap(swapped.axes.easting, swapped.axes.northing);
+  const bool as_registered = is_inside(swapped) || !is_inside(map);
+  raw.findings.add({"axis_order", as_registered ? Severity::Note : Severity::Warning, "", "",
+                    crs.id + " has northing before easting",
+                    as_registered
+                        ? "read so; --crs " + crs.id + " reads x east, y north"
+                        : "read as easting, northing: the other order is outside its area"});
+  if (as_registered) map = swapped;
 }
 
 void place_projected(RawScene& raw, const Crs& crs, const GridMap& map, Angle rotate) {
@@ -113,24 +172,37 @@ void place_without_crs(RawScene& raw, const GridMap& map, Angle rotate) {
   }
 }
 
+/// A CityGML model has a place on Earth: small numbers under a name that means nothing are degrees,
+/// which are not to be read as metres.
+void refuse_degrees(const RawScene& raw, const std::string& why) {
+  const Extent& box = raw.scene.extent;
+  const double largest = std::max(
+      {std::abs(box.min.x), std::abs(box.max.x), std::abs(box.min.y), std::abs(box.max.y)});
+  if (!raw.scene.format.starts_with("CityGML") || largest > 180.0) return;
+  throw InputError(why + "; the coordinates look like degrees");
+}
+
 std::optional<Crs> crs_of(RawScene& raw, const ReadOptions& options) {
   if (!options.crs.empty()) return Crs::parse(options.crs);
   if (raw.crs.empty()) return std::nullopt;
   try {
     return Crs::parse(raw.crs);
   } catch (const InputError& error) {
+    refuse_degrees(raw, error.what());
     raw.findings.add({"unusable_crs", Severity::Warning, "", "", error.what(),
                       "read as metres, x east, y north, without a place on Earth"});
     return std::nullopt;
   }
 }
 
-void place_by_crs(RawScene& raw, const Crs& crs, const GridMap& map, const ReadOptions& options) {
+void place_by_crs(RawScene& raw, const Crs& crs, GridMap map, const ReadOptions& options) {
   try {
     if (crs.geographic) return place_geographic(raw, crs, options);
+    choose_grid_axes(raw, crs, map);
     place_projected(raw, crs, map, options.rotate);
   } catch (const InputError& error) {
     if (!options.crs.empty() || options.scale != 1.0) throw;
+    refuse_degrees(raw, error.what());
     raw.findings.add({"unusable_crs", Severity::Warning, "", "", error.what(),
                       "read as metres, x east, y north, without a place on Earth"});
     place_without_crs(raw, map, options.rotate);
@@ -148,12 +220,15 @@ void place_scene(RawScene& raw, const ReadOptions& options) {
   if (options.up == UpAxis::Y && !raw.axes_are_given) raw.axes = kYUpAxes;
   if (options.up == UpAxis::Z) raw.axes = GridAxes{};
   const GridMap map{raw.axes, options.scale};
+  // A CRS of the options brings its own manner of naming.
+  if (!options.crs.empty())
+    raw.has_registry_axes &= options.crs.find("/def/crs/") != std::string::npos;
   const std::optional<Crs> crs = crs_of(raw, options);
   if (crs) {
     place_by_crs(raw, *crs, map, options);
   } else {
     place_without_crs(raw, map, options.rotate);
-    if (raw.crs.empty() && scene.format != "OBJ" && !options.site) {
+    if (raw.crs.empty() && !raw.is_mesh && !options.site) {
       raw.findings.add({"missing_crs", Severity::Warning, "", "",
                         "the file names no coordinate reference system",
                         "read as metres, x east, y north; give --crs EPSG:N, or --lat and --lon"});

@@ -41,7 +41,10 @@ inline constexpr GridAxes kYUpAxes{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}, {}};
 struct RawScene {
   Scene scene;
   FindingCounter findings;
-  std::string crs;  ///< as the file says; empty if it says none
+  std::string crs;                 ///< as the file says; empty if it says none
+  bool is_mesh = false;            ///< polygons of no city: no LODs, no place expected
+  bool shares_vertices = true;     ///< the format has indices: equal vertices are worth a word
+  bool has_registry_axes = false;  ///< coordinates in the order that the registry has for `crs`
   GridAxes axes;
   bool axes_are_given = false;    ///< the file says how its axes lie
   std::optional<Location> place;  ///< of the file's origin, if the file gives that and no CRS

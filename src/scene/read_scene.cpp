@@ -1,18 +1,26 @@
 #include "scene/read_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <optional>
+#include <string_view>
+#include <vector>
 
 #include "core/error.h"
+#include "scene/city_folder.h"
+#include "scene/citygml_reader.h"
 #include "scene/cityjson_reader.h"
 #include "scene/geometry_checks.h"
 #include "scene/ground_plane.h"
 #include "scene/input_file.h"
 #include "scene/materials.h"
+#include "scene/mesh_readers.h"
 #include "scene/obj_reader.h"
 #include "scene/placement.h"
+#include "scene/radiance_reader.h"
 #include "scene/repair.h"
 #include "scene/text_cursor.h"
 
@@ -21,25 +29,74 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class Format { CityJson, Obj };
+enum class Format { CityJson, CityGml, Obj, Ply, Stl, Radiance };
 
-Format format_of(const fs::path& path) {
+struct Ending {
+  std::string_view text;
+  Format format;
+};
+constexpr std::array<Ending, 9> kEndings{{{".json", Format::CityJson},
+                                          {".jsonl", Format::CityJson},
+                                          {".gml", Format::CityGml},
+                                          {".citygml", Format::CityGml},
+                                          {".xml", Format::CityGml},
+                                          {".obj", Format::Obj},
+                                          {".ply", Format::Ply},
+                                          {".stl", Format::Stl},
+                                          {".rad", Format::Radiance}}};
+
+std::optional<Format> known_format(const fs::path& path) {
   std::string name = path.filename().string();
   std::transform(name.begin(), name.end(), name.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (name.ends_with(".gz")) name.resize(name.size() - 3);
-  if (name.ends_with(".json") || name.ends_with(".jsonl")) return Format::CityJson;
-  if (name.ends_with(".obj")) return Format::Obj;
-  throw InputError(path.string() +
-                   ": the format is not known by this name; scenes are .city.json, "
-                   ".city.jsonl or .obj, or one of them with .gz");
+  for (const Ending& ending : kEndings) {
+    if (name.ends_with(ending.text)) return ending.format;
+  }
+  return std::nullopt;
 }
 
-RawScene read_raw(const fs::path& path, const ReadOptions& options, Progress& progress) {
-  if (format_of(path) == Format::Obj) return read_obj(path, progress);
+Format format_of(const fs::path& path) {
+  if (const auto format = known_format(path)) return *format;
+  throw InputError(path.string() +
+                   ": the format is not known by this name; scenes are .city.json, .city.jsonl, "
+                   ".gml, .obj, .ply, .stl or .rad, or one of them with .gz");
+}
+
+RawScene read_file(const fs::path& path, const ReadOptions& options, Progress& progress) {
+  switch (format_of(path)) {
+    case Format::Obj:
+      return read_obj(path, progress);
+    case Format::CityGml:
+      return read_citygml(path, options.building_lod, progress);
+    case Format::Ply:
+      return read_ply(path, progress);
+    case Format::Stl:
+      return read_stl(path, progress);
+    case Format::Radiance:
+      return read_radiance(path, progress);
+    case Format::CityJson:
+      break;
+  }
   std::string bytes = read_input_file(path);
   progress.stop_if_cancelled();
   return read_cityjson(std::move(bytes), path.string(), options.building_lod, progress);
+}
+
+bool is_city_file(const fs::path& path) {
+  const std::optional<Format> format = known_format(path);
+  return format == Format::CityGml || format == Format::CityJson;
+}
+
+/// A file, or a folder of tiles.
+RawScene read_raw(const fs::path& path, const ReadOptions& options, Progress& progress) {
+  if (!fs::is_directory(path)) return read_file(path, options, progress);
+  const std::vector<fs::path> tiles = tiles_in(path, is_city_file);
+  RawScene city = read_file(tiles[0], options, progress);
+  for (std::size_t t = 1; t < tiles.size(); ++t) {
+    append_tile(city, read_file(tiles[t], options, progress), tiles[t]);
+  }
+  return city;
 }
 
 void refuse_empty(const RawScene& raw, const fs::path& path, const char* which) {
@@ -60,14 +117,15 @@ void refuse_huge(const RawScene& raw, const fs::path& path) {
   }
 }
 
-/// A city in OBJ: what no name tells apart is a building.
+/// A city as a plain mesh: what no name tells apart is a building.
 void mark_buildings(RawScene& raw) {
-  if (raw.scene.format != "OBJ" || !raw.scene.is_city) return;
+  if (!raw.is_mesh || !raw.scene.is_city) return;
   std::fill(raw.is_building.begin(), raw.is_building.end(), std::uint8_t{1});
 }
 
-void count_obj_triangles(Scene& scene) {
-  if (scene.format != "OBJ") return;
+void count_mesh_triangles(RawScene& raw) {
+  Scene& scene = raw.scene;
+  if (!raw.is_mesh) return;
   const std::size_t rings = scene.surfaces.first_vertex.size() - 1;
   scene.lod_triangles[""] = scene.surfaces.vertex.size() + 2 * rings - 4 * scene.surfaces.size();
 }
@@ -99,7 +157,7 @@ Scene read_scene(const fs::path& path, const ReadOptions& options, Progress& pro
       options.materials ? read_materials(*options.materials) : std::map<std::string, Material>{};
   RawScene raw = read_raw(path, options, progress);
   refuse_empty(raw, path, "");
-  count_obj_triangles(raw.scene);
+  count_mesh_triangles(raw);
   merge_vertices(raw);
   refuse_empty(raw, path, " with vertices");
   refuse_huge(raw, path);

@@ -37,8 +37,8 @@ struct ReadOptions {
   std::optional<Location> site;  ///< of the local origin, in place of what the file says
 };
 
-/// Reads a scene: CityJSON 1.0 to 2.0 (`.json`), CityJSONSeq (`.jsonl`), Wavefront OBJ with MTL
-/// (`.obj`), each also compressed by gzip.
+/// Reads a scene in one of the formats of docs/scene_files.md, by the name of the file and also
+/// compressed by gzip, or a folder of tiles.
 ///
 /// Flaws that can be repaired or borne are findings of the scene; the rest is refused.
 ///

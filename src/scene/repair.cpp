@@ -140,7 +140,7 @@ void merge_vertices(RawScene& raw) {
   }
   vertices = std::move(kept);
   vertices.shrink_to_fit();
-  if (duplicates == 0) return;
+  if (duplicates == 0 || !raw.shares_vertices) return;
   raw.findings.add({"duplicate_vertices", Severity::Note, "", "",
                     "vertices have the same coordinates as others", "made one", duplicates});
 }
@@ -180,31 +180,35 @@ void tidy_rings(RawScene& raw) {
   out.finish();
 }
 
-void drop_flat_surfaces(RawScene& raw) {
+std::size_t drop_surfaces(RawScene& raw, const std::function<bool(std::size_t)>& is_dropped) {
   const Surfaces& in = raw.scene.surfaces;
   SurfaceRewriter out(raw.scene.surfaces);
   const std::size_t surfaces = in.size();
-  std::vector<std::uint8_t> flat(surfaces);
-  bool any = false;
-  for (std::size_t s = 0; s < surfaces; ++s) {
-    flat[s] = is_flat(raw.scene, s) ? 1 : 0;
-    if (flat[s] == 0) continue;
-    any = true;
-    raw.findings.add(
-        about(raw, s, "zero_area_face", Severity::Note, "faces have no area", "left out"));
-  }
-  if (!any) return;
+  std::vector<std::uint8_t> drop(surfaces);
+  for (std::size_t s = 0; s < surfaces; ++s) drop[s] = is_dropped(s) ? 1 : 0;
+  const auto dropped = static_cast<std::size_t>(std::count(drop.begin(), drop.end(), 1));
+  if (dropped == 0) return 0;
   std::size_t ring_end = 0, vertex_end = 0;
   for (std::size_t s = 0, r = 0, v = 0; s < surfaces; ++s) {
     for (ring_end = in.first_ring[s + 1]; r < ring_end; ++r) {
       for (vertex_end = in.first_vertex[r + 1]; v < vertex_end; ++v) {
-        if (flat[s] == 0) out.put_vertex(in.vertex[v]);
+        if (drop[s] == 0) out.put_vertex(in.vertex[v]);
       }
-      if (flat[s] == 0) out.end_ring();
+      if (drop[s] == 0) out.end_ring();
     }
-    if (flat[s] == 0) out.end_surface(s);
+    if (drop[s] == 0) out.end_surface(s);
   }
   out.finish();
+  return dropped;
+}
+
+void drop_flat_surfaces(RawScene& raw) {
+  drop_surfaces(raw, [&](std::size_t s) {
+    if (!is_flat(raw.scene, s)) return false;
+    raw.findings.add(
+        about(raw, s, "zero_area_face", Severity::Note, "faces have no area", "left out"));
+    return true;
+  });
 }
 
 void type_building_surfaces(RawScene& raw) {

@@ -1,6 +1,9 @@
 /// Flaws that are mended while a scene is read: each is counted as a finding.
 #pragma once
 
+#include <cstddef>
+#include <functional>
+
 #include "scene/raw_scene.h"
 
 namespace tenku {
@@ -11,6 +14,11 @@ void merge_vertices(RawScene& raw);
 /// Takes repeated vertices out of rings; drops rings with fewer than three distinct vertices,
 /// and surfaces whose outer ring is one.
 void tidy_rings(RawScene& raw);
+
+/// Drops the surfaces of which `is_dropped` says so; it is asked once about each, before any goes.
+/// Their vertices stay.
+/// @return how many
+std::size_t drop_surfaces(RawScene& raw, const std::function<bool(std::size_t)>& is_dropped);
 
 /// Drops surfaces all of whose vertices lie within a micrometre of one line.
 void drop_flat_surfaces(RawScene& raw);

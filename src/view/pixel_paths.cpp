@@ -18,9 +18,9 @@ bool any_mirror(const RayVisibility& rays) {
 Finding fell_back(std::size_t mirrors) {
   Finding finding;
   finding.code = "mirrors_by_rays";
+  finding.severity = Severity::Note;
   finding.what =
-      "mirrors divide the picture into so many regions that single rays are faster; these follow "
-      "them";
+      "mirrors are followed by single rays: cutting the picture into regions would take longer";
   finding.repair = "nothing to do: the picture is the same";
   finding.count = mirrors;
   return finding;

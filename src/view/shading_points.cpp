@@ -12,7 +12,7 @@ namespace {
 constexpr double kSeen = 1e-3;  ///< of a pixel's light: less is no step of a picture's 256
 constexpr int kRaysPerPixel = static_cast<int>(kRayPlaces.size());
 
-/// Those rays of a pixel that met one surface by the same way.
+/// Those rays of a pixel that met one surface of one material by the same way.
 struct Point {
   PathPoint first;
   Vec3 sum;  ///< of all positions
@@ -78,6 +78,7 @@ class PixelTracer {
     for (std::size_t k = begin; k < points.size(); ++k) {
       Point& known = points[k];
       if (known.surface != surface || known.first.way != point.way) continue;
+      if (material(known.first.triangle) != material(point.triangle)) continue;  // window, wall
       known.weight = known.weight + weight;
       known.sum = known.sum + point.position;
       ++known.rays;
@@ -96,6 +97,8 @@ class PixelTracer {
     const Vec3 normal = dot(face, point.first.normal) > 0.0 ? face : -face;
     if (surface_key(rays_, hit->triangle, normal) == point.surface) point.first.position = middle;
   }
+
+  std::uint32_t material(std::uint32_t triangle) const { return rays_.soup().material[triangle]; }
 
   const PixelPaths& paths_;
   const RayVisibility& rays_;

@@ -5,10 +5,10 @@
 
 Writes the page and the program's frames as PNG, draws the same frames in the page with four samples
 a pixel, and prints as JSON: points, bytes of the page a point, frames a second (median of five
-rounds of eight frames, each frame waited for) with one and with four samples, and for each frame
-the mean difference of codes (of 255) and the structural similarity of page and program. Between
-neighbouring frames of the list it prints how much more the page's differ than the program's. The
-browser draws in software: its speed is that of the processor, by the clock.
+rounds of eight frames, each frame waited for) as drafts ("0.5"), with one sample and with four
+("2"), and for each frame the mean difference of codes (of 255) and the structural similarity of
+page and program. Between neighbouring frames of the list it prints how much more the page's differ
+than the program's. The browser draws in software: its speed is that of the processor, by the clock.
 """
 import argparse
 import base64
@@ -34,7 +34,7 @@ SCRIPT = """tenkuPlayer.then(async (p) => {
     shots.push(btoa(text));
   }
   const rates = {};
-  for (const samples of ["1", "2"]) {
+  for (const samples of ["0.5", "1", "2"]) {
     p.measure(2, samples);
     rates[samples] = [1, 2, 3, 4, 5].map(() => p.measure(8, samples));
   }

@@ -1,9 +1,11 @@
 // Real cities all the way through the program, coarsely.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string>
 
 #include "support/reference_table.h"
 #include "support/run_program.h"
@@ -83,6 +85,43 @@ TEST_P(RealCity, IlluminanceIsBetweenNothingAndTheOpenSky) {
     if (total > 100.0) ++lit;
   }
   EXPECT_GT(lit, 10u);
+}
+
+// The tile of The Hague is published in both encodings, with the same coordinates to a millimetre.
+// The same seed draws the same samples, so that values are as close as their 95 % intervals and
+// closer.
+TEST(RealCityFormats, SameTileInCityGmlAndCityJsonHasTheSameIlluminance) {
+  const char* data = std::getenv("TENKU_DATA");
+  if (data == nullptr) GTEST_SKIP() << "TENKU_DATA does not name the folder of real data";
+  const auto folder = test_folder();
+  std::ofstream points(folder / "s.pts");
+  for (int i = 0; i < 10; ++i) {
+    for (int j = 0; j < 10; ++j) {
+      points << 78300 + 70 * i << ' ' << 457650 + 60 * j << " 12 0 0 1\n";
+    }
+  }
+  points.close();
+  const auto illuminance = [&](const std::string& file, const std::string& out) {
+    const ProgramRun run =
+        run_tenku("illuminance '" + std::string(data) + "/city/" + file + "' --sensors s.pts" +
+                      " --sky cie-overcast --sky-illuminance 10000 --sun-illuminance 0" +
+                      " --tolerance 2 --bounces 0 --out " + out,
+                  folder);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return ReferenceTable((folder / out).string());
+  };
+  const ReferenceTable gml = illuminance("citygml/denhaag_tile01_citygml1.gml.gz", "gml.csv");
+  const ReferenceTable json = illuminance("cityjson/denhaag_tile01_v10.city.json", "json.csv");
+  ASSERT_EQ(gml.size(), 100u);
+  ASSERT_EQ(json.size(), 100u);
+  double darkest = 10000.0;
+  for (std::size_t i = 0; i < gml.size(); ++i) {
+    const double total = gml.number(i, "total_lux");
+    EXPECT_NEAR(total, json.number(i, "total_lux"),
+                gml.number(i, "error_lux") + json.number(i, "error_lux") + 0.1);
+    darkest = std::min(darkest, total);
+  }
+  EXPECT_LT(darkest, 7000.0);  // among buildings, not above them
 }
 
 INSTANTIATE_TEST_SUITE_P(Cities, RealCity,

@@ -130,6 +130,28 @@ TEST_F(FlyThroughFile, PlayedFramesAreThoseRenderedDirectly) {
   }
 }
 
+// The figure that is asked for: what flickers changes where the direct frames do not.
+TEST_F(FlyThroughFile, FramesChangeNoMoreThanThoseRenderedDirectly) {
+  const Street street;
+  street.fly(street.request(file(), walk(8, 160, 120)));
+  const PointStore store(file());
+  std::vector<Image8> direct, played;
+  ToneMapOptions tone;
+  for (const std::size_t frame : {3U, 4U}) {
+    ViewRequest view;
+    view.view = store.header().path.view(frame);
+    view.bounces = 0;
+    Progress quiet;
+    const Image light =
+        render_view(view, street.engines(), street.source(), street.sky().model.get(), quiet)
+            .luminance;
+    if (direct.empty()) tone.ev100 = std::log2(1.0 / (1.2 * exposure_of(light, {})));
+    direct.push_back(tone_map(light, tone));
+    played.push_back(tone_map(played_frame(store, frame).luminance, tone));
+  }
+  EXPECT_LE(mean_difference(played[0], played[1]), mean_difference(direct[0], direct[1]) + 1.0);
+}
+
 /// Samples that see a surface and show no point.
 std::size_t holes(const PointStore& store, std::size_t frame, const RayVisibility& rays) {
   const PerspectiveView view = store.header().path.view(frame);

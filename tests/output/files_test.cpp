@@ -210,6 +210,16 @@ TEST(Sha256, MeetsThePublishedExamples) {
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
+// By `sha256sum a.txt deep/b.txt | sha256sum`, both files being the letters abc.
+TEST(Sha256, OfAFolderIsThatOfTheListOfItsFiles) {
+  const TestFolder folder("sha256_folder");
+  std::filesystem::create_directory(folder / "deep");
+  for (const char* name : {"deep/b.txt", "a.txt"}) std::ofstream(folder / name) << "abc";
+  EXPECT_EQ(sha256_of_input(folder / ""),
+            "d5e8cb0f59dfde2ae65bfc6e7817f0d6afd23faa229845adac37368a1b0f91c2");
+  EXPECT_EQ(sha256_of_input(folder / "a.txt"), sha256_of("abc"));
+}
+
 TEST(Sha256, OfAFileIsThatOfItsBytes) {
   const TestFolder folder("sha");
   const std::string bytes(3U << 20U, 'x');

@@ -8,7 +8,7 @@
 #include <iterator>
 
 #include "core/error.h"
-#include "tests/scene/scene_files.h"
+#include "tests/robustness/refusal.h"
 
 namespace tenku {
 namespace {
@@ -31,33 +31,6 @@ const char* const kCityJson =
 const char* const kObj =
     "# a house\nmtllib none.mtl\no house\nv 0 0 0\nv 4 0 0\nv 4 3 0\nv 0 3 0\nv 2 1 5\n"
     "usemtl wall\nf 1 2 3 4\nf 1/1 2/2 5/3\nf -5 -2 -1\n";
-
-/// Nothing, if the file was read; the message, if it was refused. Anything else fails the test.
-std::string refusal_of(const fs::path& path) {
-  try {
-    const Scene scene = read(path);
-    const TriangleSoup soup = flatten(scene);
-    for (const auto& triangle : soup.triangles) {
-      for (const std::uint32_t v : triangle) EXPECT_LT(v, soup.vertices.size()) << path;
-    }
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find(path.filename().string()), std::string::npos)
-        << error.what();
-    return error.what();
-  }
-  return "";
-}
-
-std::string refusal_of_text(const std::string& name, const std::string& text) {
-  const TemporaryFolder folder;
-  return refusal_of(folder.write(name, text));
-}
-
-std::string replaced(std::string text, const std::string& old, const std::string& with) {
-  const auto at = text.find(old);
-  EXPECT_NE(at, std::string::npos) << old;
-  return text.replace(at, old.size(), with);
-}
 
 void cut_everywhere(const std::string& name, const std::string& text, bool must_refuse) {
   for (std::size_t part = 0; part < 50; ++part) {

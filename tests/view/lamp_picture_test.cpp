@@ -87,5 +87,31 @@ TEST(PictureByPaths, HasTheLightOfLampsPixelByPixel) {
   EXPECT_GE(static_cast<double>(inside), 0.95 * static_cast<double>(lit));
 }
 
+// A pixel of which half the rays meet one material and half another, in one plane of one object,
+// shows the mean of both: M / pi of a diffuse surface with exitance M.
+TEST(PictureByPaths, MaterialsOfOnePlaneAreToldApartInsideAPixel) {
+  TestScene scene;
+  for (const double exitance : {1000.0, 3000.0}) {
+    Material shining = black_material();
+    shining.emission_lm_m2 = Rgb::grey(exitance);
+    scene.materials.push_back(shining);
+  }
+  scene.level({-2, -2, 0, 2}, 0, 1);
+  scene.level({0, -2, 2, 2}, 0, 2);
+  const Engines engines(scene.soup, scene.materials);
+  ViewRequest request;
+  constexpr int kColumns = 9;  // the border runs through the middle of the fifth
+  request.view = {{0, 0, 1}, {0, 0, 0}, Angle::degrees(60.0), kColumns, kColumns};
+  request.bounces = 0;
+  Progress quiet;
+  const RenderedView view = render_view(request, engines, DaylightSource{}, nullptr, quiet);
+  const auto shown = [&](int column) {
+    return view.luminance.pixels[static_cast<std::size_t>(4 * kColumns + column)].g;
+  };
+  EXPECT_NEAR(shown(3), 1000.0 / kPi, 1e-3);
+  EXPECT_NEAR(shown(4), 2000.0 / kPi, 1e-3);
+  EXPECT_NEAR(shown(5), 3000.0 / kPi, 1e-3);
+}
+
 }  // namespace
 }  // namespace tenku

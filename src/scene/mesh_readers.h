@@ -1,0 +1,24 @@
+/// Readers of plain meshes: PLY and STL.
+#pragma once
+
+#include <filesystem>
+
+#include "core/progress.h"
+#include "scene/raw_scene.h"
+
+namespace tenku {
+
+/// Reads the vertices and faces of a PLY file, ASCII or binary of either byte order.
+///
+/// Source   G. Turk, "The PLY Polygon File Format", Stanford University, 1994.
+/// @throws InputError  naming file and element or line, and as `read_input_file`
+RawScene read_ply(const std::filesystem::path& path, Progress& progress);
+
+/// Reads the triangles of an STL file, ASCII or binary. Each `solid` of an ASCII file is an object.
+/// Normals are those of the vertices' order, whatever the file says.
+///
+/// Source   3D Systems, "StereoLithography Interface Specification", 1989.
+/// @throws InputError  naming file and triangle or line, and as `read_input_file`
+RawScene read_stl(const std::filesystem::path& path, Progress& progress);
+
+}  // namespace tenku
