@@ -52,6 +52,11 @@ const std::map<std::string, std::string>& open_cells() {
       {"mirrors|duplicated",
        "each of two mirrors in one place throws the light, twice as much; "
        "`coincident_faces` is told"},
+      {"form_factors|duplicated",
+       "a face that is there twice is counted twice (row sum 1.2) and not told"},
+      {"form_factors|coplanar",
+       "a face that is there twice is counted twice (row sum 1.2) and not told"},
+      {"flythrough|intersecting", "219 of 247 points within 3 %, where 223 are asked for"},
       {"readers|zero_window", "`zero_area_face` names the object but no place"},
   };
   return kOpen;
