@@ -259,7 +259,15 @@ double ReflectedLight::left_out_lux() const {
   const double last = order_sum_[static_cast<std::size_t>(bounces_)] / looked_up_paths_;
   if (bounces_ == 1) return last;  // nothing tells how fast it falls
   const double before = order_sum_[static_cast<std::size_t>(bounces_) - 1] / looked_up_paths_;
-  const double ratio = before > 0.0 ? std::min(last / before, 0.95) : 0.0;
+  double most = 0.0;
+  for (const Material& m : rays_.materials()) {
+    most = std::max({most, m.reflectance.r, m.reflectance.g, m.reflectance.b});
+  }
+  // Two orders of few paths do not tell a ratio near one apart from a smaller one.
+  constexpr double kBright = 0.95;
+  const double ratio = before <= 0.0    ? 0.0
+                       : most > kBright ? most
+                                        : std::min(last / before, kBright);
   return last * ratio / (1.0 - ratio);
 }
 

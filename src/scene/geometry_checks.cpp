@@ -231,10 +231,34 @@ std::optional<Finding> huge_triangles(const RawScene& raw) {
       huge.size()};
 }
 
+/// A model in millimetres is a thousand times too large, one in kilometres too small to see.
+std::optional<Finding> unlikely_size(const RawScene& raw) {
+  constexpr double kLarge_m = 200.0, kSmall_m = 0.02;
+  const Scene& scene = raw.scene;
+  std::vector<double> edges;
+  edges.reserve(scene.surfaces.size());
+  for (std::size_t s = 0; s < scene.surfaces.size(); ++s) edges.push_back(longest_edge(scene, s));
+  if (edges.empty()) return std::nullopt;
+  const double longest = *std::max_element(edges.begin(), edges.end());
+  const double median = median_of(std::move(edges));
+  if (median <= kLarge_m && longest >= kSmall_m) return std::nullopt;
+  return Finding{"unlikely_size",
+                 Severity::Note,
+                 raw.object_of(0),
+                 place_in_file(scene, scene.vertices[scene.surfaces.outer_ring(0)[0]]),
+                 fmt::format("half of the faces have edges beyond {:.3g} m, none beyond {:.3g} m",
+                             median, longest),
+                 median > kLarge_m
+                     ? "taken as metres; for a model in millimetres give --scale 0.001"
+                     : "taken as metres; for a model in kilometres give --scale 1000",
+                 1};
+}
+
 }  // namespace
 
 void check_geometry(RawScene& raw) {
-  constexpr std::array kChecks{coincident_faces, far_parts, flat_buildings, huge_triangles};
+  constexpr std::array kChecks{coincident_faces, far_parts, flat_buildings, huge_triangles,
+                               unlikely_size};
   std::array<std::optional<Finding>, kChecks.size()> found;
   parallel_for(kChecks.size(), 1, [&](IndexRange range) {
     for (std::size_t k = range.begin; k < range.end; ++k) found[k] = kChecks[k](raw);
