@@ -25,7 +25,7 @@ SensorSky::SensorSky(const RayVisibility& rays, const SkyTable* table, Vec3 posi
     : sight_{rays, table, position + rays.lift_m() * normal, normal},
       random_(random),
       effort_(effort),
-      tracer_(rays, sight_.origin),
+      tracer_(rays, sight_.origin, effort.least_part_rad),
       start_(2.0 * kPi * random_.uniform()),
       check_start_(random_.uniform()) {}
 

@@ -63,6 +63,8 @@ class SensorSky {
     int first_slices = kFirstSlices;
     bool checked = true;   ///< without checks the result may be biased
     bool outlined = true;  ///< without it the result is unbiased whatever is too thin to resolve
+    bool sure_of_parts = true;  ///< floating parts between slices count in the variance
+    double least_part_rad = SliceTracer::kLeastPart_rad;  ///< see `SliceTracer`
   };
 
   /// @param table   null for no sky: only the sky view factor is found

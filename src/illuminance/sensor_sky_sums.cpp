@@ -94,21 +94,22 @@ double SensorSky::unseen_share() {
 /// Floating parts that lie between slices.
 void SensorSky::find_unmet_parts() {
   unmet_.assign(entry_.size(), 0.0);
-  if (sight_.table == nullptr || !effort_.outlined || sight_.rays.floating_parts().empty()) return;
+  if (sight_.table == nullptr || !effort_.outlined || !effort_.sure_of_parts) return;
+  if (sight_.rays.floating_parts().empty()) return;
   for (const SliceTracer::SeenPart& part : tracer_.parts()) {
     const auto from_first = [&](double azimuth) {
       const double turns = (azimuth - at(0).azimuth) / (2.0 * kPi);
       return at(0).azimuth + 2.0 * kPi * (turns - std::floor(turns));
     };
-    const double azimuth = from_first(part.azimuth_rad);
+    const double azimuth = from_first(part.azimuth_rad());
     const auto after = std::upper_bound(
         entry_.begin(), entry_.end(), azimuth,
         [](double value, const Entry& entry) { return value < entry.slice.azimuth; });
     const auto gap = static_cast<std::size_t>(after - entry_.begin()) - 1;
     const double left = azimuth - at(gap).azimuth, right = width_after(gap) - left;
-    if (std::min(left, right) < part.half_width_rad) continue;  // met
     if (!at(gap).is_open && !at(gap + 1).is_open) continue;
-    const double lux = part.solid_angle / kPi * part.sine * sight_.table->horizontal_lux();
+    if (std::min(left, right) < part.half_width_rad()) continue;  // met
+    const double lux = part.solid_angle() / kPi * part.sine() * sight_.table->horizontal_lux();
     if (lux > 0.0) unmet_[gap] += square(lux) / 3.0;
   }
 }

@@ -17,6 +17,7 @@ constexpr double kLeastPitch_m = 0.0625;
 constexpr double kRelativeError = 0.1;   // of a value, as far as slices can tell
 constexpr double kWorthKnowing = 0.005;  // of the horizontal sky illuminance
 constexpr int kMostSlices = 64;
+constexpr double kLeastPart_rad = 0.03;  // half of what encloses it: a thousandth of the sky
 
 /// The point of a triangle closest to `p`.
 ///
@@ -103,7 +104,8 @@ double SkyCache::lux(std::uint32_t triangle, Vec3 point, Vec3 normal, double dis
 double SkyCache::measure(Vec3 point, Vec3 normal, std::uint64_t key) {
   if (!source_.sky) return 0.0;
   SensorSky sky(rays_, source_.sky.get(), point, normal, SampleRandom(seed_, key, 1),
-                SensorSky::Effort{.checked = false});
+                SensorSky::Effort{
+                    .checked = false, .sure_of_parts = false, .least_part_rad = kLeastPart_rad});
   const double floor_lux = kWorthKnowing * source_.sky->horizontal_lux();
   do {
     sky.refine();

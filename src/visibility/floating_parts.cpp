@@ -18,7 +18,6 @@ constexpr double kReachesOut_m = 0.3;         // at least so far
 constexpr double kCovers = 1.2;               // times the box of its plan: two sides of it
 constexpr std::size_t kMostTriangles = 1000;  // of a part
 constexpr double kCell_m = 50.0;
-constexpr double kLeastSeen = 0.003;  // radians: a hundred-thousandth of the sky
 
 /// The triangles of each connected part, one part after the other.
 struct Connected {
@@ -183,27 +182,31 @@ void FloatingParts::put_in_cells() {
   }
 }
 
-void FloatingParts::around(Vec3 origin, std::size_t most, std::vector<std::uint32_t>& found) const {
+void FloatingParts::around(Vec3 origin, std::size_t most, double least_rad,
+                           std::vector<std::uint32_t>& found) const {
+  const auto square = [](double x) { return x * x; };
   std::vector<std::pair<double, std::uint32_t>> seen;
   for (const Cell& cell : cells_) {
     if (cell.seen_below <= origin.z) continue;
-    const double nearest =
-        std::hypot(cell.middle.x - origin.x, cell.middle.y - origin.y) - cell.radius;
-    if (cell.largest < kLeastSeen * nearest) continue;
+    const double reach = cell.largest / least_rad + cell.radius;
+    if (square(cell.middle.x - origin.x) + square(cell.middle.y - origin.y) > square(reach)) {
+      continue;
+    }
     for (std::uint32_t i = cell.begin; i < cell.end; ++i) {
       const FloatingPart& part = parts_[i];
       if (part.highest <= origin.z || (!part.overhangs && part.lowest <= origin.z)) continue;
-      const double height = 0.5 * (part.highest - part.lowest);
-      const double size = std::hypot(part.radius, height);
-      const double distance = length(part.middle - origin);
-      if (size > kLeastSeen * distance) seen.emplace_back(-size / std::max(distance, 1e-9), i);
+      const Vec3 to = part.middle - origin;
+      const double size = square(part.radius) + square(0.5 * (part.highest - part.lowest));
+      const double distance = dot(to, to);
+      if (size > square(least_rad) * distance) {
+        seen.emplace_back(-size / std::max(distance, 1e-18), i);
+      }
     }
   }
   if (seen.size() > most) {
     std::nth_element(seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(most), seen.end());
     seen.resize(most);
   }
-  std::sort(seen.begin(), seen.end());
   for (const auto& [size, i] : seen) found.push_back(i);
 }
 

@@ -51,8 +51,10 @@ class FloatingParts {
   std::span<const std::uint32_t> triangles(const FloatingPart& part) const {
     return {triangle_.data() + part.begin, triangle_.data() + part.end};
   }
-  /// Those below which sky may show from `origin`: the largest as seen from there.
-  void around(Vec3 origin, std::size_t most, std::vector<std::uint32_t>& found) const;
+  /// Those below which sky may show from `origin`: the largest as seen from there, in no order.
+  /// @param least_rad  half the angle that encloses a part, as seen from there
+  void around(Vec3 origin, std::size_t most, double least_rad,
+              std::vector<std::uint32_t>& found) const;
 
  private:
   /// Parts that lie beside each other.

@@ -33,7 +33,8 @@ void VisibleSlice::remove(const Altitude& low, const Altitude& high) {
   range = kept.range;
 }
 
-SliceTracer::SliceTracer(const RayVisibility& rays, Vec3 origin) : rays_(rays), origin_(origin) {}
+SliceTracer::SliceTracer(const RayVisibility& rays, Vec3 origin, double least_part_rad)
+    : rays_(rays), origin_(origin), least_part_rad_(least_part_rad) {}
 
 Vec3 SliceTracer::direction(const Altitude& altitude) const {
   return {altitude.cosine * plane_.along.x, altitude.cosine * plane_.along.y, altitude.sine};
@@ -206,13 +207,11 @@ VisibleSlice SliceTracer::trace(Vec3 along, const Altitude& low, const Altitude&
   slice.low_edge = low_end_.edge;
   slice.high_edge = high_end_.edge;
   slice.hints = {low_end_.hint, high_end_.hint};
-  const FloatingParts& floating = rays_.floating_parts();
-  for (const SeenPart& seen : parts()) {
-    const FloatingPart& part = floating[seen.index];
-    const double x = part.middle.x - origin_.x, y = part.middle.y - origin_.y;
-    const double beside = x * plane_.across.x + y * plane_.across.y;
-    const double ahead = x * plane_.along.x + y * plane_.along.y;
-    if (std::abs(beside) < part.radius && ahead > -part.radius) remove_part(seen.index, slice);
+  for (const SeenPart& part : parts()) {
+    const double beside = part.to.x * plane_.across.x + part.to.y * plane_.across.y;
+    if (std::abs(beside) >= part.radius) continue;
+    const double ahead = part.to.x * plane_.along.x + part.to.y * plane_.along.y;
+    if (ahead > -part.radius && !part.is_below(bottom)) remove_part(part.index, slice);
   }
   for (int i = 0; i < floating_count_; ++i) {
     std::uint32_t& triangle = floating_[static_cast<std::size_t>(i)];
@@ -230,22 +229,31 @@ const std::vector<SliceTracer::SeenPart>& SliceTracer::parts() {
   const FloatingParts& floating = rays_.floating_parts();
   if (floating.empty()) return parts_;
   std::vector<std::uint32_t> found;
-  floating.around(origin_, kMostParts, found);
+  floating.around(origin_, kMostParts, least_part_rad_, found);
+  parts_.reserve(found.size());
   for (const std::uint32_t i : found) {
     const FloatingPart& part = floating[i];
     const Vec3 to = part.middle - origin_;
-    const double level = std::hypot(to.x, to.y), distance = std::max(length(to), 1e-9);
-    const double half_width =
-        part.radius < level ? std::asin(part.radius / level) : std::numbers::pi;
-    const double height = 0.5 * (part.highest - part.lowest);
-    const double share = std::min(1.0, part.radius / distance);
-    const double solid = std::min(
-        2.0 * std::numbers::pi,
-        4.0 * share * std::hypot(height, part.radius * std::abs(to.z) / distance) / distance);
-    parts_.push_back({i, std::atan2(to.x, to.y), half_width, solid, to.z / distance});
+    parts_.push_back({i, to, std::sqrt(to.x * to.x + to.y * to.y), part.radius,
+                      0.5 * (part.highest - part.lowest)});
   }
   return parts_;
 }
+
+double SliceTracer::SeenPart::azimuth_rad() const { return std::atan2(to.x, to.y); }
+
+double SliceTracer::SeenPart::half_width_rad() const {
+  return radius < level ? std::asin(radius / level) : std::numbers::pi;
+}
+
+double SliceTracer::SeenPart::solid_angle() const {
+  const double distance = std::max(length(to), 1e-9);
+  const double share = std::min(1.0, radius / distance);
+  const double tall = std::hypot(half_height, radius * std::abs(to.z) / distance);
+  return std::min(2.0 * std::numbers::pi, 4.0 * share * tall / distance);
+}
+
+double SliceTracer::SeenPart::sine() const { return to.z / std::max(length(to), 1e-9); }
 
 void SliceTracer::remove_part(std::uint32_t part, VisibleSlice& slice) const {
   const FloatingParts& floating = rays_.floating_parts();

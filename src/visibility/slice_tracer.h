@@ -58,7 +58,12 @@ struct VisibleSlice {
 /// Threads  one tracer a thread; many may share the ray engine.
 class SliceTracer {
  public:
-  SliceTracer(const RayVisibility& rays, Vec3 origin);
+  /// Floating parts that are smaller as seen from a point are not known: a hundred-thousandth of
+  /// the sky.
+  static constexpr double kLeastPart_rad = 0.003;
+
+  /// @param least_part_rad  half the angle that encloses a floating part
+  SliceTracer(const RayVisibility& rays, Vec3 origin, double least_part_rad = kLeastPart_rad);
 
   /// Visible altitudes in [low, high] toward `along`, a horizontal unit vector, with
   /// 0 <= low <= high <= pi/2.
@@ -75,13 +80,21 @@ class SliceTracer {
 
   /// A floating part as seen from here.
   struct SeenPart {
-    std::uint32_t index;    ///< of `FloatingParts`
-    double azimuth_rad;     ///< of its middle
-    double half_width_rad;  ///< pi if it stands overhead
-    double solid_angle;     ///< of what encloses it
-    double sine;            ///< of the altitude of its middle
+    std::uint32_t index;  ///< of `FloatingParts`
+    Vec3 to;              ///< the middle of the cylinder around it, from here
+    double level;         ///< metres to there, level
+    double radius, half_height;
+
+    double azimuth_rad() const;     ///< of its middle
+    double half_width_rad() const;  ///< pi if it stands overhead
+    double solid_angle() const;     ///< of what encloses it
+    double sine() const;            ///< of the altitude of its middle
+    /// Whether all of it lies below an altitude.
+    bool is_below(const Altitude& altitude) const {
+      return (to.z + half_height) * altitude.cosine < (level - radius) * altitude.sine;
+    }
   };
-  /// Floating parts that slices may meet, the largest first.
+  /// Floating parts that slices may meet.
   const std::vector<SeenPart>& parts();
 
   /// Floating things that checks have met so far.
@@ -165,6 +178,7 @@ class SliceTracer {
   int zenith_ = -1;  ///< -1 not asked yet, 0 hidden, 1 open
   std::array<std::uint32_t, kFloating> floating_{};
   int floating_count_ = 0, floating_next_ = 0;
+  double least_part_rad_;
   std::vector<SeenPart> parts_;
   bool has_parts_ = false;  ///< they have been looked for
 };

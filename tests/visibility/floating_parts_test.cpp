@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support/test_scene.h"
 #include "visibility/ray_visibility.h"
+#include "visibility/slice_tracer.h"
 
 namespace tenku {
 namespace {
@@ -31,7 +34,7 @@ void prism(TestScene& scene, Vec3 foot, double radius_below, double radius_above
 std::vector<std::uint32_t> seen_from(const TestScene& scene, Vec3 origin) {
   const RayVisibility rays(scene.soup, scene.materials);
   std::vector<std::uint32_t> found;
-  rays.floating_parts().around(origin, 100, found);
+  rays.floating_parts().around(origin, 100, SliceTracer::kLeastPart_rad, found);
   return found;
 }
 
@@ -74,8 +77,9 @@ TEST(FloatingParts, TheLargestAreTaken) {
   for (int k = 0; k < 20; ++k) scene.box({10.0 + 8.0 * k, 0, 5}, {2, 2, 1});
   const RayVisibility rays(scene.soup, scene.materials);
   std::vector<std::uint32_t> found;
-  rays.floating_parts().around({0, 0, 0.01}, 3, found);
+  rays.floating_parts().around({0, 0, 0.01}, 3, SliceTracer::kLeastPart_rad, found);
   ASSERT_EQ(found.size(), 3U);
+  std::sort(found.begin(), found.end());  // from west to east
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_NEAR(rays.floating_parts()[found[k]].middle.x, 11.0 + 8.0 * static_cast<double>(k),
                 1e-9);
