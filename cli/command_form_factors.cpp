@@ -7,6 +7,7 @@
 
 #include "cli/command.h"
 #include "cli/finding_json.h"
+#include "cli/lit_scene_options.h"
 #include "cli/scene_options.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
@@ -103,8 +104,8 @@ CsvTable table_of(const GroupFormFactors& matrix, const std::vector<std::string>
   return table;
 }
 
-Json summary_of(const FormFactorCommandOptions& options, const GroupedFaces& faces,
-                const GroupFormFactors& matrix, double seconds) {
+Json summary_of(const FormFactorCommandOptions& options, const Scene& scene,
+                const GroupedFaces& faces, const GroupFormFactors& matrix, double seconds) {
   Json summary{{"method", options.method},       {"resolution", options.resolution},
                {"two_sided", options.two_sided}, {"groups", matrix.groups},
                {"triangles", faces.mesh.size()}, {"seconds", seconds},
@@ -114,6 +115,8 @@ Json summary_of(const FormFactorCommandOptions& options, const GroupedFaces& fac
     summary["to_backs"][faces.names[i]] = matrix.to_backs[i];
   }
   summary["reciprocity_defect"] = matrix.reciprocity_defect();
+  summary["diagnostics"] = Json::array();
+  for (const Finding& finding : scene.findings) summary["diagnostics"].push_back(json_of(finding));
   summary["error_max"] = *std::max_element(matrix.error.begin(), matrix.error.end());
   return summary;
 }
@@ -161,8 +164,9 @@ int form_factors(const FormFactorCommandOptions& options, const CommandContext& 
   table_of(matrix, faces.names).write(options.out);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   say_summary(context.options, faces, matrix, taken.count());
+  say_findings(context.options, scene.findings);
   if (context.options.json) {
-    fmt::print("{}\n", summary_of(options, faces, matrix, taken.count())
+    fmt::print("{}\n", summary_of(options, scene, faces, matrix, taken.count())
                            .dump(2, ' ', false, Json::error_handler_t::replace));
   }
   return options.tolerance_pct && !matrix.within_tolerance ? kToleranceNotReached : kDone;

@@ -55,6 +55,9 @@ int illuminance(const IlluminanceCommandOptions& options, const CommandContext& 
   IlluminanceResult result =
       illuminate(placed.sensors, lit.engines(), lit.source(), how, method, context.progress);
   reflection.tell(result.findings);
+  if (auto on_edges = sensors_on_edges(placed.sensors, lit.engines().rays())) {
+    result.findings.push_back(std::move(*on_edges));
+  }
   write_result(options, lit, placed, result);
   return close_calculation(context.options, lit,
                            {.start = start,

@@ -242,6 +242,9 @@ class RadiosityRun {
   int close() const {
     std::vector<Finding> findings = lit_.scene().findings;
     findings.insert(findings.end(), mesh_findings_.begin(), mesh_findings_.end());
+    if (auto on_edges = sensors_on_edges(sensors_, lit_.engines().rays())) {
+      findings.push_back(std::move(*on_edges));
+    }
     bool is_converged = is_fine_enough(*loop_, options_.mesh, options_.lit.tolerance_pct, findings);
     for (const LightRun& run : runs_) {
       findings.insert(findings.end(), run.light.findings.begin(), run.light.findings.end());

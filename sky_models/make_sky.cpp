@@ -34,6 +34,12 @@ void check(const SkyRequest& request) {
 
 bool sun_is_up(const SkyRequest& request) { return request.sun && request.sun->direction.z > 0.0; }
 
+/// Whether a part of the disc stands above the horizon.
+bool sun_shows(const SkyRequest& request) {
+  return request.sun &&
+         request.sun->direction.z > -std::sin(request.sun->angular_radius.in_radians());
+}
+
 Angle sun_altitude(const SkyRequest& request) { return altitude_of(request.sun->direction); }
 
 void require_sun(const SkyRequest& request, std::string_view why) {
@@ -163,11 +169,11 @@ void set_sun(Sky& sky, const SkyRequest& request) {
   }
   if (!request.sun_illuminance) return;
   if (request.sun_illuminance->value() > 0.0) require_sun(request, "that is to shine");
-  if (!request.sun || sun_is_up(request)) sky.sun.normal_illuminance = *request.sun_illuminance;
+  if (!request.sun || sun_shows(request)) sky.sun.normal_illuminance = *request.sun_illuminance;
 }
 
 void tell_grazing_sun(Sky& sky) {
-  constexpr Angle kGrazing = Angle::degrees(2.0);
+  constexpr Angle kGrazing = Angle::degrees(2.0), kLeast = Angle::degrees(0.05);
   const Angle altitude = altitude_of(sky.sun.direction);
   if (!(sky.sun.normal_illuminance > Illuminance(0.0)) || !(altitude < kGrazing)) return;
   sky.diagnostics.push_back(
@@ -177,7 +183,7 @@ void tell_grazing_sun(Sky& sky) {
        fmt::format("the sun is so low that shadows are {:.0f} times as long as what throws them is "
                    "high: a centimetre of height moves their ends by that many centimetres, and "
                    "what stands outside of the scene would shade it",
-                   1.0 / std::tan(altitude.in_radians())),
+                   1.0 / std::tan(std::max(altitude, kLeast).in_radians())),
        "give a scene that reaches as far toward the sun, or a time with a higher sun"});
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "beams/first_met.h"
 #include "beams/mirror_reflectance.h"
@@ -64,7 +65,9 @@ class PanelFinder {
  public:
   PanelFinder(const TriangleSoup& soup, const std::vector<Material>& materials,
               const MeshAdjacency& adjacency)
-      : soup_(soup), materials_(materials), adjacency_(adjacency), is_taken_(soup.size()) {}
+      : soup_(soup), materials_(materials), adjacency_(adjacency), is_taken_(soup.size()) {
+    take_repeated();
+  }
 
   std::vector<MirrorPanel> panels() {
     std::vector<MirrorPanel> result;
@@ -78,6 +81,21 @@ class PanelFinder {
   bool is_free(std::uint32_t t) const {
     return !is_taken_[t] && is_mirror(materials_[soup_.material[t]]) &&
            is_finite(normal_of(soup_, t));
+  }
+
+  /// A mirror that is there twice throws its light once.
+  void take_repeated() {
+    std::set<std::array<std::array<double, 3>, 3>> known;
+    for (std::uint32_t t = 0; t < soup_.size(); ++t) {
+      if (!is_free(t)) continue;
+      std::array<std::array<double, 3>, 3> corners;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3& v = soup_.vertices[soup_.triangles[t][k]];
+        corners[k] = {v.x, v.y, v.z};
+      }
+      std::sort(corners.begin(), corners.end());
+      if (!known.insert(corners).second) is_taken_[t] = true;
+    }
   }
 
   MirrorPanel panel_from(std::uint32_t first) {

@@ -36,7 +36,8 @@ struct MirrorPanel {
   std::vector<MirrorPart> parts;  ///< do not overlap
 };
 
-/// All panels of a scene, in the order of their first triangles. Triangles of no area are left out.
+/// All panels of a scene, in the order of their first triangles. Triangles of no area are left out,
+/// and those with the corners of an earlier one.
 std::vector<MirrorPanel> mirror_panels(const TriangleSoup& soup,
                                        const std::vector<Material>& materials,
                                        const MeshAdjacency& adjacency);

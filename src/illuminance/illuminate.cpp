@@ -201,6 +201,27 @@ void find_dark_sensors(const Sensors& sensors, const SensorIlluminance& values,
   if (dark.count > 0) findings.push_back(std::move(dark));
 }
 
+std::optional<Finding> sensors_on_edges(const Sensors& sensors, const RayVisibility& rays) {
+  std::vector<std::uint8_t> is_on(sensors.size());
+  parallel_for(sensors.size(), kGrain, [&](IndexRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      const Vec3 origin = sensors.position[i] + rays.lift_m() * sensors.normal[i];
+      is_on[i] = rays.triangle_at(origin).has_value();
+    }
+  });
+  const auto first = std::find(is_on.begin(), is_on.end(), 1);
+  if (first == is_on.end()) return std::nullopt;
+  const auto count = static_cast<std::size_t>(std::count(first, is_on.end(), 1));
+  return Finding{"sensor_on_edge",
+                 Severity::Warning,
+                 "",
+                 place_of(sensors, static_cast<std::size_t>(first - is_on.begin())),
+                 "sensors stand on an edge of a surface or within it: on which side of it they are "
+                 "is open, and their values are those of either side",
+                 "move them off it, by 0.1 mm or more",
+                 count};
+}
+
 void tell_missed(IlluminanceResult& result) {
   Finding finding;
   finding.code = "tolerance_not_reached";

@@ -79,6 +79,10 @@ bool is_dark(const SensorIlluminance& values, std::size_t sensor);
 void find_dark_sensors(const Sensors& sensors, const SensorIlluminance& values,
                        std::vector<Finding>& findings);
 
+/// Sensors that stand on a surface other than theirs: on an edge, or at the foot of a wall. Whether
+/// they are in front of it or behind it only rounding tells.
+std::optional<Finding> sensors_on_edges(const Sensors& sensors, const RayVisibility& rays);
+
 /// Counts the sensors out of tolerance, and says so in the findings.
 void tell_missed(IlluminanceResult& result);
 

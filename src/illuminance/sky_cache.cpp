@@ -5,6 +5,7 @@
 #include <mutex>
 #include <unordered_map>
 
+#include "core/closest_point.h"
 #include "core/random.h"
 #include "illuminance/sensor_sky.h"
 
@@ -18,30 +19,6 @@ constexpr double kRelativeError = 0.1;   // of a value, as far as slices can tel
 constexpr double kWorthKnowing = 0.005;  // of the horizontal sky illuminance
 constexpr int kMostSlices = 64;
 constexpr double kLeastPart_rad = 0.03;  // half of what encloses it: a thousandth of the sky
-
-/// The point of a triangle closest to `p`.
-///
-/// Source   C. Ericson, "Real-Time Collision Detection", 2005, section 5.1.5: the regions of the
-///          plane in barycentric terms.
-Vec3 closest_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
-  const auto on_segment = [&](Vec3 s, Vec3 e) {
-    const Vec3 d = e - s;
-    const double squared = dot(d, d);
-    const double t = squared > 0.0 ? std::clamp(dot(p - s, d) / squared, 0.0, 1.0) : 0.0;
-    return s + t * d;
-  };
-  const Vec3 n = cross(b - a, c - a);
-  const double area = dot(n, n);
-  if (area > 0.0) {
-    const double u = dot(cross(c - b, p - b), n) / area, v = dot(cross(a - c, p - c), n) / area;
-    if (u >= 0.0 && v >= 0.0 && u + v <= 1.0) return u * a + v * b + (1.0 - u - v) * c;
-  }
-  Vec3 best = on_segment(a, b);
-  for (const Vec3 other : {on_segment(b, c), on_segment(c, a)}) {
-    if (length(other - p) < length(best - p)) best = other;
-  }
-  return best;
-}
 
 struct Cell {
   std::uint64_t key;

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "core/random.h"
+#include "scene/geometry_checks.h"
 #include "scene/triangulation.h"
 
 namespace tenku {
@@ -78,9 +81,12 @@ class SurfaceRewriter {
   std::size_t vertex_ = 0, ring_ = 0, surface_ = 0;
 };
 
-Finding about(const RawScene& raw, std::size_t s, const char* code, Severity severity,
-              const char* what, const char* repair) {
-  return {code, severity, raw.object_of(s), "", what, repair};
+/// @param ring  one of the surface, for the place
+Finding about(const RawScene& raw, std::size_t s, std::span<const std::uint32_t> ring,
+              const char* code, Severity severity, const char* what, const char* repair) {
+  const Scene& scene = raw.scene;
+  std::string where = ring.empty() ? "" : place_in_file(scene, scene.vertices[ring[0]]);
+  return {code, severity, raw.object_of(s), std::move(where), what, repair};
 }
 
 /// Copies a ring without repeated vertices; true if it lost some.
@@ -163,7 +169,7 @@ void tidy_rings(RawScene& raw) {
       ring.assign(in.vertex.begin() + static_cast<std::ptrdiff_t>(vertex_begin),
                   in.vertex.begin() + static_cast<std::ptrdiff_t>(vertex_end));
       if (put_tidied(out, ring)) {
-        raw.findings.add(about(raw, s, "repeated_vertex", Severity::Note,
+        raw.findings.add(about(raw, s, ring, "repeated_vertex", Severity::Note,
                                "rings name a vertex twice in a row", "named once"));
       }
       if (has_three_distinct(ring)) {
@@ -171,7 +177,7 @@ void tidy_rings(RawScene& raw) {
         continue;
       }
       out.forget_ring();
-      raw.findings.add(about(raw, s, "degenerate_ring", Severity::Warning,
+      raw.findings.add(about(raw, s, ring, "degenerate_ring", Severity::Warning,
                              "rings have fewer than three distinct vertices", "left out"));
       keep = !is_outer;
     }
@@ -205,8 +211,8 @@ std::size_t drop_surfaces(RawScene& raw, const std::function<bool(std::size_t)>&
 void drop_flat_surfaces(RawScene& raw) {
   drop_surfaces(raw, [&](std::size_t s) {
     if (!is_flat(raw.scene, s)) return false;
-    raw.findings.add(
-        about(raw, s, "zero_area_face", Severity::Note, "faces have no area", "left out"));
+    raw.findings.add(about(raw, s, raw.scene.surfaces.outer_ring(s), "zero_area_face",
+                           Severity::Note, "faces have no area", "left out"));
     return true;
   });
 }
@@ -226,17 +232,18 @@ void check_polygons(RawScene& raw) {
     if (surfaces.rings(s) == 1 && surfaces.outer_ring(s).size() == 3) continue;
     const PolygonShape shape = shape_of(raw.scene, s);
     if (shape.off_plane_m > 0.1) {
-      raw.findings.add(about(raw, s, "nonplanar_over_10cm", Severity::Warning,
-                             "faces are more than 10 cm off their plane",
+      raw.findings.add(about(raw, s, raw.scene.surfaces.outer_ring(s), "nonplanar_over_10cm",
+                             Severity::Warning, "faces are more than 10 cm off their plane",
                              "triangulated as they are"));
     } else if (shape.off_plane_m > 0.01) {
-      raw.findings.add(about(raw, s, "nonplanar_over_1cm", Severity::Note,
-                             "faces are more than 1 cm off their plane",
+      raw.findings.add(about(raw, s, raw.scene.surfaces.outer_ring(s), "nonplanar_over_1cm",
+                             Severity::Note, "faces are more than 1 cm off their plane",
                              "triangulated as they are"));
     }
     if (!shape.is_simple) {
-      raw.findings.add(about(raw, s, "self_intersecting_ring", Severity::Warning,
-                             "rings cut or touch themselves", "filled by the odd-even rule"));
+      raw.findings.add(about(raw, s, raw.scene.surfaces.outer_ring(s), "self_intersecting_ring",
+                             Severity::Warning, "rings cut or touch themselves",
+                             "filled by the odd-even rule"));
     }
   }
 }

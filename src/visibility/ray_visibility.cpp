@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/closest_point.h"
 #include "core/error.h"
 #include "core/handle.h"
 
@@ -115,6 +116,25 @@ void gather_hit(const RTCFilterFunctionNArguments* arguments) {
   arguments->valid[0] = 0;
 }
 
+/// What a search for a triangle at a point has found.
+struct PointSearch {
+  const TriangleSoup& soup;
+  const std::vector<std::uint32_t>& opaque;
+  Vec3 point;
+  double within_m;
+  std::optional<std::uint32_t> found;
+};
+
+bool is_at_point(RTCPointQueryFunctionArguments* arguments) {
+  auto* search = static_cast<PointSearch*>(arguments->userPtr);
+  const std::uint32_t triangle = search->opaque[arguments->primID];
+  const auto& [a, b, c] = search->soup.triangles[triangle];
+  const auto& v = search->soup.vertices;
+  const Vec3 closest = closest_on_triangle(search->point, v[a], v[b], v[c]);
+  if (length(closest - search->point) <= search->within_m) search->found = triangle;
+  return false;  // the radius stays
+}
+
 double extent_of(const TriangleSoup& soup) {
   double largest = 1.0;
   for (const Vec3& v : soup.vertices) {
@@ -210,6 +230,23 @@ std::optional<RayHit> RayVisibility::first_hit(Vec3 origin, Vec3 direction) cons
   rtcIntersect1(device_->opaque_scene.get(), &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   return RayHit{device_->opaque[query.hit.primID], query.ray.tfar};
+}
+
+std::optional<std::uint32_t> RayVisibility::triangle_at(Vec3 point) const {
+  // Point and triangle are off by half a step of a float each.
+  constexpr double kStep = 0x1.0p-23;
+  const double largest = std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z), 1e-3});
+  PointSearch search{soup_, device_->opaque, point, kStep * largest, std::nullopt};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  alignas(16) RTCPointQuery query;
+  query.x = static_cast<float>(point.x);
+  query.y = static_cast<float>(point.y);
+  query.z = static_cast<float>(point.z);
+  query.time = 0.0F;
+  query.radius = static_cast<float>(4.0 * search.within_m);  // the tree of boxes is of floats
+  rtcPointQuery(device_->opaque_scene.get(), &query, &context, is_at_point, &search);
+  return search.found;
 }
 
 void RayVisibility::first_triangles(Vec3 origin, std::span<const Vec3> direction,

@@ -54,6 +54,9 @@ class RayVisibility : public Visibility {
   void first_triangles(Vec3 origin, std::span<const Vec3> direction,
                        std::span<std::uint32_t> triangle) const;
   static constexpr std::uint32_t kNoTriangle = std::numeric_limits<std::uint32_t>::max();
+  /// An opaque triangle that holds the point, as far as floats can tell: a ray from there may start
+  /// on either side of it.
+  std::optional<std::uint32_t> triangle_at(Vec3 point) const;
   /// Product of the transmittances of the panes on the ray, whatever else is on it.
   double glass_transmission(Vec3 origin, Vec3 direction,
                             double distance_m = std::numeric_limits<double>::infinity()) const;

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,11 @@ struct Cell {
   std::string does_not_apply = {};  ///< why the method cannot meet the hazard
   bool takes_minutes = false;       ///< run by `make stability` only
 };
+
+/// For lists of tests.
+inline void PrintTo(const Cell& cell, std::ostream* out) {
+  *out << cell.method << ", " << cell.hazard;
+}
 
 std::vector<Cell> sky_cells();       ///< rays, shadow maps, sky elements, sun disc
 std::vector<Cell> room_cells();      ///< paths, radiosity, meshes

@@ -38,26 +38,9 @@ std::vector<Cell> cells_that_run() {
 /// Cells that are known not to hold: skipped, and said in docs/stability.md.
 const std::map<std::string, std::string>& open_cells() {
   static const std::map<std::string, std::string> kOpen{
-      {"paths|on_edges",
-       "exactly on an edge or vertex of a room up to 63 of 200 lx wrong, outside "
-       "of the interval and not told; 1e-6 m off it is right"},
-      {"radiosity|on_edges", "exactly on an edge or vertex up to 50 of 200 lx wrong, not told"},
-      {"meshes|on_edges", "exactly on an edge or vertex up to 50 of 200 lx wrong, not told"},
       {"radiosity|intersecting", "0.75 of 200 lx off where the interval is narrower"},
       {"meshes|intersecting", "0.75 of 200 lx off where the interval is narrower"},
-      {"sun_disc|sun_low",
-       "a sun whose centre is at 0 degrees or below gives nothing, its upper "
-       "part 0.1 % of its normal illuminance (49 of 50,000 lx); from 0.1 "
-       "degrees on it is right"},
-      {"mirrors|duplicated",
-       "each of two mirrors in one place throws the light, twice as much; "
-       "`coincident_faces` is told"},
-      {"form_factors|duplicated",
-       "a face that is there twice is counted twice (row sum 1.2) and not told"},
-      {"form_factors|coplanar",
-       "a face that is there twice is counted twice (row sum 1.2) and not told"},
       {"flythrough|intersecting", "219 of 247 points within 3 %, where 223 are asked for"},
-      {"readers|zero_window", "`zero_area_face` names the object but no place"},
   };
   return kOpen;
 }
@@ -84,8 +67,8 @@ TEST_P(StabilityCell, IsRightOrTold) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Matrix, StabilityCell, testing::ValuesIn(cells_that_run()),
-                         [](const testing::TestParamInfo<Cell>& info) {
-                           return info.param.method + "_" + info.param.hazard;
+                         [](const testing::TestParamInfo<Cell>& of) {
+                           return of.param.method + "_" + of.param.hazard;
                          });
 
 /// "Suite.Name" of all tests below tests/.
