@@ -19,9 +19,8 @@ UpAxis up_axis(const std::string& text) {
 
 void add_scene_options(CLI::App& app, SceneOptions& options) {
   app.add_option("SCENE", options.scene,
-                 "scene file (.city.json, .city.jsonl, .gml, .obj, .ply, .stl, .rad, also with "
-                 ".gz) or folder "
-                 "of tiles")
+                 "scene file (.city.json, .city.jsonl, .gml, .obj, .gltf, .glb, .ply, .stl, "
+                 ".rad, also with .gz) or folder of tiles")
       ->required();
   app.add_option("--materials", options.materials, "TOML file of materials by name");
   app.add_option("--rotate", options.rotate_deg, "turn the model clockwise by degrees");

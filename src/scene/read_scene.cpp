@@ -29,21 +29,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class Format { CityJson, CityGml, Obj, Ply, Stl, Radiance };
+enum class Format { CityJson, CityGml, Obj, Ply, Stl, Gltf, Radiance };
 
 struct Ending {
   std::string_view text;
   Format format;
 };
-constexpr std::array<Ending, 9> kEndings{{{".json", Format::CityJson},
-                                          {".jsonl", Format::CityJson},
-                                          {".gml", Format::CityGml},
-                                          {".citygml", Format::CityGml},
-                                          {".xml", Format::CityGml},
-                                          {".obj", Format::Obj},
-                                          {".ply", Format::Ply},
-                                          {".stl", Format::Stl},
-                                          {".rad", Format::Radiance}}};
+constexpr std::array<Ending, 11> kEndings{{{".json", Format::CityJson},
+                                           {".jsonl", Format::CityJson},
+                                           {".gml", Format::CityGml},
+                                           {".citygml", Format::CityGml},
+                                           {".xml", Format::CityGml},
+                                           {".obj", Format::Obj},
+                                           {".ply", Format::Ply},
+                                           {".stl", Format::Stl},
+                                           {".gltf", Format::Gltf},
+                                           {".glb", Format::Gltf},
+                                           {".rad", Format::Radiance}}};
 
 std::optional<Format> known_format(const fs::path& path) {
   std::string name = path.filename().string();
@@ -60,7 +62,7 @@ Format format_of(const fs::path& path) {
   if (const auto format = known_format(path)) return *format;
   throw InputError(path.string() +
                    ": the format is not known by this name; scenes are .city.json, .city.jsonl, "
-                   ".gml, .obj, .ply, .stl or .rad, or one of them with .gz");
+                   ".gml, .obj, .gltf, .glb, .ply, .stl or .rad, or one of them with .gz");
 }
 
 RawScene read_file(const fs::path& path, const ReadOptions& options, Progress& progress) {
@@ -73,6 +75,8 @@ RawScene read_file(const fs::path& path, const ReadOptions& options, Progress& p
       return read_ply(path, progress);
     case Format::Stl:
       return read_stl(path, progress);
+    case Format::Gltf:
+      return read_gltf(path, progress);
     case Format::Radiance:
       return read_radiance(path, progress);
     case Format::CityJson:
