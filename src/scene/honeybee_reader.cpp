@@ -98,7 +98,8 @@ Ring HoneybeeReader::ring_of(JsonElement points, const std::string& id) const {
   for (const JsonElement point : source_.items(points, "boundary")) {
     ring.push_back(source_.point(point, "boundary"));
   }
-  if (ring.size() < 3) source_.refuse(tenku::quoted(id) + ": a polygon has fewer than three points");
+  if (ring.size() < 3)
+    source_.refuse(tenku::quoted(id) + ": a polygon has fewer than three points");
   return ring;
 }
 

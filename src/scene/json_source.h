@@ -1,5 +1,4 @@
-/// Members of JSON objects, refused with their place where they are not what they should be.
-/// Private to this module.
+/// Members of JSON objects, refused with their place. Private to this module.
 #pragma once
 
 #include <simdjson.h>

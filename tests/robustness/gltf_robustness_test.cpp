@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/robustness/refusal.h"
+#include "tests/scene/draco_texts.h"
 #include "tests/scene/gltf_texts.h"
 
 namespace tenku {
@@ -98,6 +99,18 @@ TEST(GltfRobustness, EachByteMayBeWrong) {
         broken[i] = c;
         refusal_of_text(name, broken);
       }
+    }
+  }
+}
+
+TEST(GltfRobustness, PackedMeshesMayBeWrongInEachByte) {
+  const std::string packed = packed_box();
+  EXPECT_EQ(refusal_of_text("a.gltf", draco_json(packed)), "");
+  for (std::size_t i = 0; i < packed.size(); ++i) {
+    for (const char c : {'\0', '\1', '\x7f', '\x80', '\xff'}) {
+      std::string broken = packed;
+      broken[i] = c;
+      refusal_of_text("a.gltf", draco_json(broken));
     }
   }
 }

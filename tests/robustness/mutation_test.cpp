@@ -16,6 +16,7 @@
 #include "core/random.h"
 #include "tests/robustness/refusal.h"
 #include "tests/scene/citygml_texts.h"
+#include "tests/scene/draco_texts.h"
 #include "tests/scene/gltf_texts.h"
 #include "tests/scene/honeybee_texts.h"
 #include "tests/scene/tile_texts.h"
@@ -61,6 +62,7 @@ std::vector<Sample> corpus() {
       {"a.rad", kRadiance},
       {"a.gltf", gltf_text()},
       {"a.glb", glb()},
+      {"b.gltf", draco_json(packed_box())},
       {"a.hbjson", kHoneybee},
       {"a.b3dm", b3dm(batched_glb(), R"({"BATCH_LENGTH":2})", R"({"gml_id":["a","b"]})")}};
 }

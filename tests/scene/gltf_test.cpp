@@ -1,11 +1,10 @@
 // glTF: the same box in every encoding, transforms, materials, what is told and what is refused.
-#include <draco/compression/encode.h>
-#include <draco/mesh/triangle_soup_mesh_builder.h>
 #include <gtest/gtest.h>
 
 #include <numbers>
 
 #include "core/error.h"
+#include "tests/scene/draco_texts.h"
 #include "tests/scene/gltf_texts.h"
 #include "tests/scene/scene_files.h"
 
@@ -242,39 +241,6 @@ TEST(Gltf, WhatIsNotReadIsTold) {
   EXPECT_THROW(read_text("a.gltf", with(gltf_text(), R"("scene":0,)",
                                         R"("extensionsRequired":["EXT_meshopt_compression"],)")),
                InputError);
-}
-
-/// The box packed by libdraco's own encoder.
-std::string packed_box() {
-  draco::TriangleSoupMeshBuilder builder;
-  builder.Start(12);
-  const int position =
-      builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
-  std::uint32_t face = 0;
-  for_each_triangle([&](const auto& triangle) {
-    const auto a = y_up(triangle[0]), b = y_up(triangle[1]), c = y_up(triangle[2]);
-    builder.SetAttributeValuesForFace(position, draco::FaceIndex(face++), a.data(), b.data(),
-                                      c.data());
-  });
-  const auto mesh = builder.Finalize();
-  draco::Encoder encoder;
-  encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, 14);
-  draco::EncoderBuffer buffer;
-  EXPECT_TRUE(encoder.EncodeMeshToBuffer(*mesh, &buffer).ok());
-  return {buffer.data(), buffer.size()};
-}
-
-std::string draco_json(const std::string& packed) {
-  std::string json = gltf_json(data_uri(packed));
-  json = with(json, R"("material":0)",
-              R"("material":0,"extensions":{"KHR_draco_mesh_compression":)"
-              R"({"bufferView":0,"attributes":{"POSITION":0}}})");
-  json = with(json, R"("bufferView":0,"componentType":5126)", R"("componentType":5126)");
-  json =
-      with(json, R"("byteLength":96},)", R"("byteLength":)" + std::to_string(packed.size()) + "},");
-  json = with(json, R"("byteLength":168)", R"("byteLength":)" + std::to_string(packed.size()));
-  return with(json, R"("scene":0,)",
-              R"("scene":0,"extensionsRequired":["KHR_draco_mesh_compression"],)");
 }
 
 TEST(Gltf, MeshesPackedByDracoAreUnpacked) {

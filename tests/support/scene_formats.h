@@ -6,6 +6,7 @@
 #include <map>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "scene/flatten.h"
 #include "scene/scene.h"
@@ -97,7 +98,7 @@ inline std::string citygml_of(const Scene& scene) {
        << scene.georeference->crs << "\" srsDimension=\"3\"/></gml:boundedBy>\n";
   const auto put_polygon = [&](std::size_t s) {
     const Surfaces& all = scene.surfaces;
-    text << "<MultiSurface><surfaceMember><Polygon>";
+    text << "<surfaceMember><Polygon>";
     for (std::size_t r = all.first_ring[s]; r < all.first_ring[s + 1]; ++r) {
       const char* side = r == all.first_ring[s] ? "exterior" : "interior";
       text << '<' << side << "><LinearRing><posList>";
@@ -108,27 +109,34 @@ inline std::string citygml_of(const Scene& scene) {
       const Vec3 p = on_map(scene, all.ring(r)[0]);
       text << p.x << ' ' << p.y << ' ' << p.z << "</posList></LinearRing></" << side << '>';
     }
-    text << "</Polygon></surfaceMember></MultiSurface>";
+    text << "</Polygon></surfaceMember>";
   };
   const auto surface_name = [](SurfaceType type) {
     return type == SurfaceType::Roof     ? "RoofSurface"
            : type == SurfaceType::Ground ? "GroundSurface"
                                          : "WallSurface";
   };
+  std::vector<std::vector<std::size_t>> of_object(scene.objects.size());
   for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
-    const bool is_building = scene.objects[scene.surfaces.object[s]].type.starts_with("Building");
-    text << "<cityObjectMember>";
-    if (is_building) {
+    of_object[scene.surfaces.object[s]].push_back(s);
+  }
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    const bool is_building = scene.objects[o].type.starts_with("Building");
+    const char* object = is_building ? "Building" : "LandUse";
+    text << "<cityObjectMember><" << object << " gml:id=\"" << scene.objects[o].id << "\">";
+    if (!is_building) text << "<lod1MultiSurface><MultiSurface>";
+    for (const std::size_t s : of_object[o]) {
+      if (!is_building) {
+        put_polygon(s);
+        continue;
+      }
       const char* name = surface_name(scene.surfaces.type[s]);
-      text << "<Building gml:id=\"s" << s << "\"><boundedBy><" << name << "><lod2MultiSurface>";
+      text << "<boundedBy><" << name << "><lod2MultiSurface><MultiSurface>";
       put_polygon(s);
-      text << "</lod2MultiSurface></" << name << "></boundedBy></Building>";
-    } else {
-      text << "<LandUse gml:id=\"s" << s << "\"><lod1MultiSurface>";
-      put_polygon(s);
-      text << "</lod1MultiSurface></LandUse>";
+      text << "</MultiSurface></lod2MultiSurface></" << name << "></boundedBy>";
     }
-    text << "</cityObjectMember>\n";
+    if (!is_building) text << "</MultiSurface></lod1MultiSurface>";
+    text << "</" << object << "></cityObjectMember>\n";
   }
   text << "</CityModel>\n";
   return text.str();
