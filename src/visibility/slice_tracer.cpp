@@ -227,7 +227,7 @@ const std::vector<SliceTracer::SeenPart>& SliceTracer::parts() {
   if (has_parts_) return parts_;
   has_parts_ = true;
   const FloatingParts& floating = rays_.floating_parts();
-  if (floating.empty()) return parts_;
+  if (floating.empty() || least_part_rad_ == kNoParts) return parts_;
   std::vector<std::uint32_t> found;
   floating.around(origin_, kMostParts, least_part_rad_, found);
   parts_.reserve(found.size());

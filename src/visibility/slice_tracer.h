@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/altitude.h"
@@ -61,6 +62,7 @@ class SliceTracer {
   /// Floating parts that are smaller as seen from a point are not known: a hundred-thousandth of
   /// the sky.
   static constexpr double kLeastPart_rad = 0.003;
+  static constexpr double kNoParts = std::numeric_limits<double>::infinity();
 
   /// @param least_part_rad  half the angle that encloses a floating part
   SliceTracer(const RayVisibility& rays, Vec3 origin, double least_part_rad = kLeastPart_rad);
