@@ -1,4 +1,4 @@
-/// Materials on semantic surfaces of CityJSON, as cityjson_writer.h has them. Private to this module.
+/// Materials on semantic surfaces of CityJSON, our own. Private to this module.
 #pragma once
 
 #include <simdjson.h>
