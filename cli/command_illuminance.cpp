@@ -13,6 +13,7 @@
 #include "output/table_writer.h"
 #include "study/illuminance_field.h"
 #include "study/scene_reflection.h"
+#include "study/surface_results.h"
 
 namespace tenku {
 namespace {
@@ -22,25 +23,38 @@ struct IlluminanceCommandOptions {
   SensorOptions sensors;
 };
 
+bool is_city_file(const std::string& out) { return out.ends_with(".json"); }
+
 void check_request(const IlluminanceCommandOptions& options) {
   check_sensor_options(options.sensors);
-  const bool table = options.lit.out == "-" || options.lit.out.ends_with(".csv");
-  if (!table && !options.lit.out.ends_with(".vtp")) {
-    throw InputError("cannot write '" + options.lit.out + "': the ending must be .csv or .vtp");
+  const std::string& out = options.lit.out;
+  const bool is_model = is_city_file(out) || out.ends_with(".glb");
+  if (out != "-" && !out.ends_with(".csv") && !out.ends_with(".vtp") && !is_model) {
+    throw InputError("cannot write '" + out +
+                     "': the ending must be .csv, .vtp, .city.json or .glb");
   }
-  check_can_write(options.lit.out);
+  if (is_model && options.sensors.grid.empty()) {
+    throw InputError("values on surfaces (" + out + ") need sensors on surfaces: give --grid");
+  }
+  check_can_write(out);
 }
 
 void write_result(const IlluminanceCommandOptions& options, const LitScene& lit,
                   const PlacedSensors& placed, const IlluminanceResult& result) {
-  if (!options.lit.out.ends_with(".vtp")) {
-    illuminance_table(placed.in_file.position, placed.in_file.normal, result.values)
-        .write(options.lit.out);
+  const std::string& out = options.lit.out;
+  if (is_city_file(out)) {
+    return write_whole_file(out, cityjson_of_grid(lit, *placed.grid, result.values));
+  }
+  if (out.ends_with(".glb")) {
+    return write_whole_file(out, glb_of_grid(lit, *placed.grid, result.values));
+  }
+  if (!out.ends_with(".vtp")) {
+    illuminance_table(placed.in_file.position, placed.in_file.normal, result.values).write(out);
     return;
   }
   FieldMesh mesh = placed.grid ? field_of_grid(lit, *placed.grid, result.values)
                                : field_of_points(lit, placed.sensors, result.values);
-  write_vtp(options.lit.out, mesh);
+  write_vtp(out, mesh);
 }
 
 int illuminance(const IlluminanceCommandOptions& options, const CommandContext& context) {

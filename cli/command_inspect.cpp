@@ -11,6 +11,9 @@
 #include "cli/finding_json.h"
 #include "cli/scene_options.h"
 #include "cli/store_inspection.h"
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "scene/cityjson_writer.h"
 #include "scene/flatten.h"
 
 namespace tenku {
@@ -159,9 +162,40 @@ void print_text(const Scene& scene, const Counts& counts, bool verbose) {
   print_findings(scene, verbose);
 }
 
-int inspect(const SceneOptions& options, const CommandContext& context) {
-  if (is_store_name(options.scene)) return inspect_store(options.scene, context.options);
-  const Scene scene = read_scene(options.scene, read_options(options), context.progress);
+struct InspectOptions {
+  SceneOptions scene;
+  std::string repaired;  ///< path, or empty
+};
+
+void check_request(const InspectOptions& options) {
+  if (options.repaired.empty()) return;
+  if (is_store_name(options.scene.scene)) {
+    throw InputError("--repaired writes a scene, and " + options.scene.scene + " holds points");
+  }
+  if (!options.repaired.ends_with(".json")) {
+    throw InputError("cannot write '" + options.repaired + "': the ending must be .city.json");
+  }
+  check_can_write(options.repaired);
+}
+
+void write_repaired(const Scene& scene, const InspectOptions& options,
+                    const CommandContext& context) {
+  write_whole_file(options.repaired, cityjson_of(scene));
+  if (scene.georeference && scene.georeference->crs.empty()) {
+    const Location& at = scene.georeference->origin;
+    say(context.options,
+        fmt::format("{} has no place on Earth, as there is no coordinate reference system: read it "
+                    "with --lat {} --lon {}",
+                    options.repaired, at.latitude.in_degrees(), at.longitude.in_degrees()));
+  }
+}
+
+int inspect(const InspectOptions& options, const CommandContext& context) {
+  check_request(options);
+  const std::string& file = options.scene.scene;
+  if (is_store_name(file)) return inspect_store(file, context.options);
+  const Scene scene = read_scene(file, read_options(options.scene), context.progress);
+  if (!options.repaired.empty()) write_repaired(scene, options, context);
   const Counts counts = counts_of(scene, flatten(scene));
   if (context.options.json) {
     const std::string text =
@@ -176,8 +210,11 @@ int inspect(const SceneOptions& options, const CommandContext& context) {
 }  // namespace
 
 CommandBody make_inspect_command(CLI::App& app) {
-  const auto options = std::make_shared<SceneOptions>();  // shared with the body, which outlives us
-  add_scene_options(app, *options);
+  const auto options =
+      std::make_shared<InspectOptions>();  // shared with the body, which outlives us
+  add_scene_options(app, options->scene);
+  app.add_option("--repaired", options->repaired,
+                 "writes what is used, with all that was mended, as CityJSON (.city.json)");
   return [options](const CommandContext& context) { return inspect(*options, context); };
 }
 

@@ -18,10 +18,10 @@ UpAxis up_axis(const std::string& text) {
 }  // namespace
 
 void add_scene_options(CLI::App& app, SceneOptions& options) {
-  app.add_option("SCENE", options.scene,
-                 "scene file (.city.json, .city.jsonl, .gml, .obj, .ply, .stl, .rad, also with "
-                 ".gz) or folder "
-                 "of tiles")
+  app.add_option(
+         "SCENE", options.scene,
+         "scene file (.city.json, .city.jsonl, .gml, .obj, .gltf, .glb, .hbjson, .ply, .stl, "
+         ".rad, also with .gz) or folder of tiles")
       ->required();
   app.add_option("--materials", options.materials, "TOML file of materials by name");
   app.add_option("--rotate", options.rotate_deg, "turn the model clockwise by degrees");
@@ -31,6 +31,8 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
                  "coordinate reference system of the file, such as EPSG:6677");
   app.add_option("--ground", options.ground,
                  "auto (under a city without terrain), none, or a height of the file");
+  app.add_flag("--strict", options.strict,
+               "refuse a scene of which something would be mended, left out or guessed");
   app.add_option("--building-lod", options.building_lod,
                  "level of detail to read, such as 1 or 2.2 (default: the highest of each object)");
 }
@@ -44,6 +46,7 @@ ReadOptions read_options(const SceneOptions& options) {
   read.up = up_axis(options.up);
   read.crs = options.crs;
   read.ground = GroundChoice::parse(options.ground);
+  read.strict = options.strict;
   if (!options.materials.empty()) read.materials = options.materials;
   return read;
 }

@@ -17,6 +17,7 @@ struct SceneOptions {
   std::string up = "auto";  ///< `auto`, `y` or `z`
   std::string crs, ground = "auto", building_lod;
   double rotate_deg = 0.0, scale = 1.0;
+  bool strict = false;
 };
 
 /// Registers the positional SCENE and the options on a subcommand.

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "core/error.h"
+#include "scene/tenku_material.h"
 
 namespace tenku {
 
@@ -86,8 +87,8 @@ void GeometryAppender::read_semantics(Element geometry) {
   for (const Element surface : surfaces) {
     std::string_view type = "(none)";
     if (surface["type"].get(type) != simdjson::SUCCESS) type = "(none)";
-    semantics_.push_back(semantic_kind(type));
-    if (semantics_.back().is_known) continue;
+    semantics_.push_back({semantic_kind(type), tenku_material(surface, raw_, place_)});
+    if (semantics_.back().kind.is_known) continue;
     raw_.findings.add({"unknown_semantic_type", Severity::Note, std::string(place_.object), "",
                        "surfaces have the unknown type '" + std::string(type) + "'",
                        "treated as surfaces without a type"});
@@ -119,6 +120,7 @@ void GeometryAppender::append_level(Element boundaries, const Element* values, i
 
 bool GeometryAppender::choose_type(const Element* value) {
   facts_.type = object_type_;
+  facts_.material = kNone;
   std::uint64_t index = 0;
   if (value == nullptr || value->is_null()) return true;
   if (value->get(index) != simdjson::SUCCESS || index >= semantics_.size()) {
@@ -127,7 +129,8 @@ bool GeometryAppender::choose_type(const Element* value) {
                        "the surface is treated as one without a type"});
     return true;
   }
-  const SemanticKind kind = semantics_[index];
+  const SemanticKind kind = semantics_[index].kind;
+  facts_.material = semantics_[index].material;
   if (kind.type != SurfaceType::Unknown) facts_.type = kind.type;
   return !kind.is_virtual;
 }

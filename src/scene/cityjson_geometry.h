@@ -64,7 +64,11 @@ class GeometryAppender {
   SurfaceFacts facts_;
   SurfaceType object_type_;
   VertexOf vertex_of_;
-  std::vector<SemanticKind> semantics_;
+  struct Semantics {
+    SemanticKind kind;
+    std::uint32_t material = kNone;
+  };
+  std::vector<Semantics> semantics_;
 };
 
 }  // namespace tenku

@@ -40,7 +40,7 @@ struct SurfaceRow {
   SurfaceType type;
 };
 
-constexpr std::array<SurfaceRow, 21> kSurfaces{{
+constexpr std::array<SurfaceRow, 23> kSurfaces{{
     {"RoofSurface", SurfaceType::Roof},
     {"GroundSurface", SurfaceType::Ground},
     {"WallSurface", SurfaceType::Wall},
@@ -62,6 +62,8 @@ constexpr std::array<SurfaceRow, 21> kSurfaces{{
     {"TransportationMarking", SurfaceType::Road},
     {"TransportationHole", SurfaceType::Road},
     {"RoofEdge", SurfaceType::Roof},
+    {"+TenkuSurface", SurfaceType::Unknown},
+    {"+TenkuVegetation", SurfaceType::Vegetation},
 }};
 
 }  // namespace

@@ -21,4 +21,16 @@ TriangleSoup flatten(const Scene& scene) {
   return soup;
 }
 
+std::vector<std::uint32_t> surfaces_of_triangles(const Scene& scene) {
+  std::vector<Vec3> vertices = scene.vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::uint32_t> surfaces;
+  for (std::uint32_t s = 0; s < scene.surfaces.size(); ++s) {
+    triangles.clear();
+    triangulate_polygon(scene.surfaces, s, vertices, triangles);
+    surfaces.resize(surfaces.size() + triangles.size(), s);
+  }
+  return surfaces;
+}
+
 }  // namespace tenku

@@ -1,4 +1,4 @@
-/// Readers of plain meshes: PLY and STL.
+/// Readers of plain meshes: PLY, STL and glTF.
 #pragma once
 
 #include <filesystem>
@@ -20,5 +20,13 @@ RawScene read_ply(const std::filesystem::path& path, Progress& progress);
 /// Source   3D Systems, "StereoLithography Interface Specification", 1989.
 /// @throws InputError  naming file and triangle or line, and as `read_input_file`
 RawScene read_stl(const std::filesystem::path& path, Progress& progress);
+
+/// Reads the triangles of a glTF 2.0 file, `.gltf` or `.glb`, also packed by Draco. Each node with
+/// a mesh is an object, or each feature of EXT_structural_metadata with an id. Coordinates are y
+/// up, as the standard has them.
+///
+/// Source   The Khronos Group, "glTF 2.0 Specification" (2021).
+/// @throws InputError  naming the file and what is wrong in it, and as `read_input_file`
+RawScene read_gltf(const std::filesystem::path& path, Progress& progress);
 
 }  // namespace tenku

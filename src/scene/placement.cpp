@@ -107,6 +107,8 @@ void place_geographic(RawScene& raw, const Crs& crs, const ReadOptions& options)
   const double latitude = latitude_first ? centre.x : centre.y;
   const double longitude = latitude_first ? centre.y : centre.x;
   raw.scene.frame = FileFrame::geographic(centre, latitude_first, options.rotate);
+  raw.scene.map_frame =
+      FileFrame::geographic(latitude_first ? Vec3{centre.y, centre.x, centre.z} : centre, false);
   Georeference where;
   where.crs = crs.id;
   where.name = crs.name;
@@ -149,6 +151,8 @@ void place_projected(RawScene& raw, const Crs& crs, const GridMap& map, Angle ro
   const Georeference where = crs.at(origin);
   raw.scene.frame = frame_of(map, origin, where.grid_convergence + rotate,
                              where.metres_per_unit / where.point_scale, where.metres_per_unit);
+  raw.scene.map_frame = frame_of({GridAxes{}, 1.0}, origin, where.grid_convergence,
+                                 where.metres_per_unit / where.point_scale, where.metres_per_unit);
   raw.scene.georeference = where;
   const Location& at = where.origin;
   if (!contains(crs, at.latitude.in_degrees(), at.longitude.in_degrees())) {
@@ -165,6 +169,7 @@ void place_without_crs(RawScene& raw, const GridMap& map, Angle rotate) {
   const bool is_far = std::max(std::abs(centre.x), std::abs(centre.y)) > kFar_m;
   if (!raw.place && (is_far || std::abs(centre.z) > kFar_m)) origin = grid_centre(raw, map);
   raw.scene.frame = frame_of(map, origin, rotate, 1.0, 1.0);
+  raw.scene.map_frame = FileFrame::affine(origin, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}});
   if (raw.place) {
     Georeference where;
     where.origin = *raw.place;
@@ -219,7 +224,7 @@ void place_scene(RawScene& raw, const ReadOptions& options) {
   scene.extent = extent_of(scene.vertices);
   if (options.up == UpAxis::Y && !raw.axes_are_given) raw.axes = kYUpAxes;
   if (options.up == UpAxis::Z) raw.axes = GridAxes{};
-  const GridMap map{raw.axes, options.scale};
+  const GridMap map{raw.axes, options.scale * raw.metres_per_unit};
   // A CRS of the options brings its own manner of naming.
   if (!options.crs.empty())
     raw.has_registry_axes &= options.crs.find("/def/crs/") != std::string::npos;

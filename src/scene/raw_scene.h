@@ -18,6 +18,7 @@ class FindingCounter {
  public:
   /// Adds one, or raises the count of the one with the same code and object.
   void add(const Finding& finding);
+  const std::vector<Finding>& all() const { return findings_; }
   std::vector<Finding> take() { return std::move(findings_); }
 
  private:
@@ -46,6 +47,7 @@ struct RawScene {
   bool shares_vertices = true;     ///< the format has indices: equal vertices are worth a word
   bool has_registry_axes = false;  ///< coordinates in the order that the registry has for `crs`
   GridAxes axes;
+  double metres_per_unit = 1.0;   ///< of coordinates without a CRS, where the file says it
   bool axes_are_given = false;    ///< the file says how its axes lie
   std::optional<Location> place;  ///< of the file's origin, if the file gives that and no CRS
   std::vector<std::uint8_t> is_building;

@@ -15,6 +15,7 @@
 #include "scene/cityjson_reader.h"
 #include "scene/geometry_checks.h"
 #include "scene/ground_plane.h"
+#include "scene/honeybee_reader.h"
 #include "scene/input_file.h"
 #include "scene/materials.h"
 #include "scene/mesh_readers.h"
@@ -22,28 +23,35 @@
 #include "scene/placement.h"
 #include "scene/radiance_reader.h"
 #include "scene/repair.h"
+#include "scene/strict.h"
 #include "scene/text_cursor.h"
+#include "scene/tileset_reader.h"
 
 namespace tenku {
 namespace {
 
 namespace fs = std::filesystem;
 
-enum class Format { CityJson, CityGml, Obj, Ply, Stl, Radiance };
+enum class Format { CityJson, CityGml, Obj, Ply, Stl, Gltf, Honeybee, Tileset, Radiance };
 
 struct Ending {
   std::string_view text;
   Format format;
 };
-constexpr std::array<Ending, 9> kEndings{{{".json", Format::CityJson},
-                                          {".jsonl", Format::CityJson},
-                                          {".gml", Format::CityGml},
-                                          {".citygml", Format::CityGml},
-                                          {".xml", Format::CityGml},
-                                          {".obj", Format::Obj},
-                                          {".ply", Format::Ply},
-                                          {".stl", Format::Stl},
-                                          {".rad", Format::Radiance}}};
+constexpr std::array<Ending, 14> kEndings{{{"tileset.json", Format::Tileset},
+                                           {".b3dm", Format::Tileset},
+                                           {".json", Format::CityJson},
+                                           {".jsonl", Format::CityJson},
+                                           {".gml", Format::CityGml},
+                                           {".citygml", Format::CityGml},
+                                           {".xml", Format::CityGml},
+                                           {".obj", Format::Obj},
+                                           {".ply", Format::Ply},
+                                           {".stl", Format::Stl},
+                                           {".gltf", Format::Gltf},
+                                           {".glb", Format::Gltf},
+                                           {".hbjson", Format::Honeybee},
+                                           {".rad", Format::Radiance}}};
 
 std::optional<Format> known_format(const fs::path& path) {
   std::string name = path.filename().string();
@@ -60,7 +68,8 @@ Format format_of(const fs::path& path) {
   if (const auto format = known_format(path)) return *format;
   throw InputError(path.string() +
                    ": the format is not known by this name; scenes are .city.json, .city.jsonl, "
-                   ".gml, .obj, .ply, .stl or .rad, or one of them with .gz");
+                   ".gml, .obj, .gltf, .glb, .hbjson, .ply, .stl, .rad, tileset.json or .b3dm, or "
+                   "one of them with .gz");
 }
 
 RawScene read_file(const fs::path& path, const ReadOptions& options, Progress& progress) {
@@ -73,6 +82,12 @@ RawScene read_file(const fs::path& path, const ReadOptions& options, Progress& p
       return read_ply(path, progress);
     case Format::Stl:
       return read_stl(path, progress);
+    case Format::Gltf:
+      return read_gltf(path, progress);
+    case Format::Honeybee:
+      return read_honeybee(path, progress);
+    case Format::Tileset:
+      return read_tileset(path, progress);
     case Format::Radiance:
       return read_radiance(path, progress);
     case Format::CityJson:
@@ -91,6 +106,7 @@ bool is_city_file(const fs::path& path) {
 /// A file, or a folder of tiles.
 RawScene read_raw(const fs::path& path, const ReadOptions& options, Progress& progress) {
   if (!fs::is_directory(path)) return read_file(path, options, progress);
+  if (fs::exists(path / "tileset.json")) return read_tileset(path / "tileset.json", progress);
   const std::vector<fs::path> tiles = tiles_in(path, is_city_file);
   RawScene city = read_file(tiles[0], options, progress);
   for (std::size_t t = 1; t < tiles.size(); ++t) {
@@ -167,6 +183,7 @@ Scene read_scene(const fs::path& path, const ReadOptions& options, Progress& pro
   refuse_empty(raw, path, " that have an area");
   check_geometry(raw);
   add_ground(raw, options.ground);
+  if (options.strict) refuse_mended(raw, path);
   assign_materials(raw, named);
   raw.scene.findings = raw.findings.take();
   progress.end(std::to_string(raw.scene.objects.size()) + " objects, " +

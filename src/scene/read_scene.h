@@ -34,6 +34,7 @@ struct ReadOptions {
   std::string crs;  ///< `EPSG:N`, in place of what the file says
   GroundChoice ground;
   std::optional<std::filesystem::path> materials;  ///< TOML
+  bool strict = false;           ///< refuse what would be mended, left out or guessed
   std::optional<Location> site;  ///< of the local origin, in place of what the file says
 };
 

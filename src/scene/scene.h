@@ -73,6 +73,10 @@ struct Scene {
   std::vector<std::string> lods;                     ///< labels of the levels of detail used
   std::map<std::string, std::size_t> lod_triangles;  ///< all levels in the file, also unused ones
   FileFrame frame;
+  /// Between local metres and the map: easting, northing, height in the units of the CRS, or
+  /// longitude, latitude, height; local metres about another origin where there is no CRS. Turns
+  /// and scales of the options are in `frame` alone.
+  FileFrame map_frame;
   std::optional<Georeference> georeference;
   Extent extent;             ///< of what was read, without the ground that tenku gives
   bool is_city = false;      ///< has buildings of a city model, or a georeference of its own

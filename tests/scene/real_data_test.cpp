@@ -64,6 +64,8 @@ INSTANTIATE_TEST_SUITE_P(
         Expected{"city/plateau/53392633_bldg_6697_haneda.gml", 10, 656, "1", "EPSG:6697"},
         Expected{"city/plateau/53392633_bldg_6697_haneda.gml", 10, 154, "0", "EPSG:6697"},
         Expected{"city/plateau/54363371_bldg_6697_komatsu.gml", 192, 4544, "1", "EPSG:6697"},
+        Expected{"city/3dtiles/wageningen/7-624-528/content/3_6_7.glb", 145, 6777, "", ""},
+        Expected{"city/3dtiles/wageningen/7-624-528/content/3_7_7.glb", 81, 5432, "", ""},
         Expected{"city/large/tokyo_minato_north_lod1.city.json.gz", 14831, 396544, "", "EPSG:6677"},
         Expected{"city/large/linz_centre_lod2.obj.gz", 11226, 619999, "", "EPSG:31255"}));
 
