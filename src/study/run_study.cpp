@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/stopwatch.h"
 #include "illuminance/wide_texels.h"
 #include "output/field_writer.h"
 #include "output/sensor_file.h"
@@ -16,6 +20,7 @@
 #include "study/stage_clock.h"
 #include "study/study_report.h"
 #include "study/study_sky.h"
+#include "study/time_limit.h"
 #include "study/view_output.h"
 #include "view/background.h"
 #include "view/eye_inside.h"
@@ -82,6 +87,18 @@ void add(std::optional<Finding> finding, std::vector<Finding>& findings) {
   if (finding) findings.push_back(std::move(*finding));
 }
 
+/// A share of the sensors, evenly; some dozens at least.
+Sensors some_of(const Sensors& all, double share) {
+  constexpr std::size_t kFewest = 64;
+  const auto wanted = static_cast<std::size_t>(share * static_cast<double>(all.size()));
+  const std::size_t count = std::min(all.size(), std::max(kFewest, wanted));
+  std::vector<std::uint32_t> chosen;
+  for (std::size_t k = 0; k < count; ++k) {
+    chosen.push_back(static_cast<std::uint32_t>(k * all.size() / count));
+  }
+  return sensors_of(all, chosen);
+}
+
 /// Each step of a study: what it makes goes into a file and into the report.
 class StudyRun {
  public:
@@ -97,7 +114,7 @@ class StudyRun {
             },
             study.calculation.partition, study.calculation.gl, progress_),
         reflection_(lit_, study.calculation.reflection),
-        report_(study, lit_, moment_) {}
+        report_(study_, lit_, moment_) {}
 
   void render(const StudyView& view) {
     ViewRequest request = view_request_of(view, study_, lit_);
@@ -127,6 +144,54 @@ class StudyRun {
     double spacing_m;
   };
 
+  /// All that is to be lit, in part, for its time.
+  DivisibleWork work_in_parts(const std::vector<PlacedField>& fields) const {
+    struct Part {
+      Sensors sensors;
+      double share_m;  ///< reflected light over
+    };
+    std::vector<Part> parts;
+    for (const PlacedField& field : fields) {
+      parts.push_back({field.grid.sensors, kShare * field.spacing_m});
+    }
+    for (const StudySensors& file : study_.sensors) {
+      parts.push_back({lit_.to_local(read_sensor_file(file.file)), 0.0});
+    }
+    if (study_.plan) {
+      const GroundPlan ground = ground_plan(lit_, study_.plan->spacing_m);
+      parts.push_back({ground.sensors, kShare * ground.grid.cell_m});
+    }
+    DivisibleWork work;
+    for (const Part& part : parts) work.count += part.sensors.size();
+    for (const StudyView& view : study_.views) {
+      work.count += static_cast<std::size_t>(view.size[0]) * static_cast<std::size_t>(view.size[1]);
+    }
+    work.run = [this, parts](double share, double tolerance_pct, Progress& quiet) {
+      Study study = study_;
+      study.calculation.tolerance_percent = tolerance_pct;
+      SceneReflection reflection(lit_, study.calculation.reflection);
+      const double apart = 1.0 / std::sqrt(share);
+      for (const Part& part : parts) {
+        if (part.sensors.size() == 0) continue;
+        light_to(study.calculation, reflection, some_of(part.sensors, share), apart * part.share_m,
+                 quiet);
+      }
+      for (const StudyView& view : study.views) render_small(view, study, share, reflection, quiet);
+    };
+    return work;
+  }
+
+  /// Chooses the tolerance of the study.
+  /// @return whether the time allows any
+  bool keep_within(double left_s, const std::vector<PlacedField>& fields) {
+    const DivisibleWork work = work_in_parts(fields);
+    if (work.count == 0) return true;
+    const TimedTolerance chosen = tolerance_within(work, left_s, progress_);
+    study_.calculation.tolerance_percent = chosen.tolerance_pct;
+    report_.note(chosen.why);
+    return chosen.is_reachable;
+  }
+
   /// Sensors of each field, which may not exist: before the long work.
   std::vector<PlacedField> place_sensors() {
     std::vector<PlacedField> placed;
@@ -148,8 +213,9 @@ class StudyRun {
   }
 
   void illuminate_surfaces(const StudyField& field, const PlacedField& placed) {
-    const IlluminanceResult result = light(placed.grid.sensors, kShare * placed.spacing_m);
-    FieldMesh mesh = field_of_grid(lit_, placed.grid, result.values);
+    const IlluminanceResult result =
+        light(placed.grid.sensors, kShare * placed.spacing_m, "'" + field.name + "'");
+    FieldMesh mesh = field_of_grid(lit_, placed.grid, result.values, result.decided);
     mesh.texts.push_back({"time", {report_.time_text()}});
     write_vtp(place(field.name + ".vtp"), mesh);
     report_.add_field(placed.grid, result.values);
@@ -157,15 +223,15 @@ class StudyRun {
 
   void illuminate_sensors(const StudySensors& sensors) {
     const Sensors points = read_sensor_file(sensors.file);
-    const IlluminanceResult result = light(lit_.to_local(points), 0.0);
-    illuminance_table(points.position, points.normal, result.values)
+    const IlluminanceResult result = light(lit_.to_local(points), 0.0, "'" + sensors.name + "'");
+    illuminance_table(points.position, points.normal, result.values, result.decided)
         .write(place(sensors.name + ".csv"));
   }
 
   void map_ground(const StudyPlan& plan) {
     GroundPlan ground = ground_plan(lit_, plan.spacing_m);
     if (ground.sensors.size() == 0) return report_.note("the plan was left out: no open ground");
-    const IlluminanceResult result = light(ground.sensors, kShare * ground.grid.cell_m);
+    const IlluminanceResult result = light(ground.sensors, kShare * ground.grid.cell_m, "the plan");
     ground.fill(result.values);
     const Image8 map = plan_map(report_.plan_of(ground, result.values, plan));
     write_png(place("plan.png"), map,
@@ -180,23 +246,57 @@ class StudyRun {
     if (study_.report) write_whole_file(place("report.html"), report_html(report_.content()));
     const fs::path manifest = place("manifest.json");
     write_manifest(manifest, report_.manifest(outcome_.files, progress_.stages()));
+    outcome_.tolerance_pct = study_.calculation.tolerance_percent;
     outcome_.findings = report_.findings();
     return outcome_;
   }
 
  private:
-  IlluminanceResult light(const Sensors& sensors, double share_reflected_m) {
-    IlluminanceOptions options = illuminance_options_of(study_.calculation);
-    options.share_reflected_m = share_reflected_m;
-    const LightMethod method = method_of(study_.calculation);
-    options.reflection = reflection_.finder(options, method);
+  /// @param what  the sensors, in words
+  IlluminanceResult light(const Sensors& sensors, double share_reflected_m,
+                          const std::string& what) {
     IlluminanceResult result =
-        illuminate(sensors, lit_.engines(), lit_.source(), options, method, progress_);
+        light_to(study_.calculation, reflection_, sensors, share_reflected_m, progress_);
     reflection_.tell(result.findings);
     add(wide_texels(result.regions, lit_.scene().frame), result.findings);
     outcome_.out_of_tolerance += result.out_of_tolerance;
     report_.add_light(result);
+    if (!study_.calculation.decide.empty()) {
+      report_.note(in_words(study_.calculation.decide, counts_of(result.decided)) + " of " + what);
+    }
     return result;
+  }
+
+  IlluminanceResult light_to(const StudyCalculation& calculation, SceneReflection& reflection,
+                             const Sensors& sensors, double share_reflected_m,
+                             Progress& progress) const {
+    IlluminanceOptions options = illuminance_options_of(calculation);
+    if (calculation.decide.empty()) {
+      options.share_reflected_m = share_reflected_m;
+    } else {
+      options.decide = decision_threshold(calculation.decide);
+    }
+    const LightMethod method = method_of(calculation);
+    options.reflection = reflection.finder(options, method);
+    return illuminate(sensors, lit_.engines(), lit_.source(), options, method, progress);
+  }
+
+  /// A view of few pixels, for its time.
+  void render_small(StudyView view, const Study& study, double share, SceneReflection& reflection,
+                    Progress& progress) const {
+    constexpr double kFewest = 16.0;  // pixels along a side
+    for (int& side : view.size) {
+      side = std::min(side, static_cast<int>(std::max(kFewest, std::sqrt(share) * side)));
+    }
+    ViewRequest request = view_request_of(view, study, lit_);
+    std::unique_ptr<Background> background;
+    if (!view.background.empty()) {
+      background = read_background(view.background, view.background_white);
+      request.background = background.get();
+    }
+    request.reflection =
+        reflection.finder(illuminance_options_of(study.calculation), request.method);
+    render_view(request, lit_.engines(), lit_.source(), lit_.sky().model.get(), progress);
   }
 
   fs::path place(const std::string& name) {
@@ -204,7 +304,7 @@ class StudyRun {
     return outcome_.files.back();
   }
 
-  const Study& study_;
+  Study study_;
   fs::path folder_;
   StageClock progress_;
   StudyMoment moment_;
@@ -221,7 +321,9 @@ void check_study(const Study& study) {
 
 }  // namespace
 
-StudyOutcome run_study(const Study& study, const fs::path& folder, Progress& progress) {
+StudyOutcome run_study(const Study& study, const fs::path& folder, Progress& progress,
+                       std::optional<double> time_limit_s) {
+  const Stopwatch watch;
   check_study(study);
   std::error_code error;
   fs::create_directories(folder, error);
@@ -230,11 +332,14 @@ StudyOutcome run_study(const Study& study, const fs::path& folder, Progress& pro
   }
   StudyRun run(study, folder, progress);  // reads the scene, places the sun, makes the sky
   const auto grids = run.place_sensors();
+  const bool is_in_time = !time_limit_s || run.keep_within(*time_limit_s - watch.seconds(), grids);
   for (const StudyView& view : study.views) run.render(view);
   for (std::size_t i = 0; i < grids.size(); ++i) run.illuminate_surfaces(study.fields[i], grids[i]);
   for (const StudySensors& sensors : study.sensors) run.illuminate_sensors(sensors);
   if (study.plan) run.map_ground(*study.plan);
-  return run.finish();
+  StudyOutcome outcome = run.finish();
+  outcome.is_in_time = is_in_time;
+  return outcome;
 }
 
 }  // namespace tenku
