@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/random.h"
+#include "illuminance/expected_time.h"
 #include "illuminance/lamp_sampler.h"
 #include "illuminance/reflected_light.h"
 #include "illuminance/sensor_sky.h"
@@ -388,14 +389,20 @@ void add_shared_reflection(const ReflectedSharing& sharing, const RayVisibility&
   tell_missed(result);
 }
 
+IlluminanceOptions options_for_sharing(const IlluminanceOptions& options) {
+  IlluminanceOptions reflected = options;
+  reflected.floor_share = 0.01;  // what is shared is not exact to that in any case
+  reflected.tolerance_pct = std::min(100.0, kBlended * options.tolerance_pct);
+  reflected.most_paths = std::min(options.most_paths, kMostSharedPaths);
+  return reflected;
+}
+
 void add_reflection(const Sensors& sensors, const RayVisibility& rays, const DaylightSource& source,
                     const IlluminanceOptions& options, Progress& progress,
                     IlluminanceResult& result) {
   IlluminanceOptions reflected = options;
   if (options.share_reflected_m > 0.0) {
-    reflected.floor_share = 0.01;  // what is shared is not exact to that in any case
-    reflected.tolerance_pct = std::min(100.0, kBlended * options.tolerance_pct);
-    reflected.most_paths = std::min(options.most_paths, kMostSharedPaths);
+    reflected = options_for_sharing(options);
     const ReflectedSharing sharing(
         sensors, sharing_by_distance(sensors, result.values.sky_view, options.share_reflected_m),
         rays);

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/stopwatch.h"
+#include "illuminance/expected_time.h"
 #include "illuminance/wide_texels.h"
 #include "output/field_writer.h"
 #include "output/sensor_file.h"
@@ -87,18 +87,6 @@ void add(std::optional<Finding> finding, std::vector<Finding>& findings) {
   if (finding) findings.push_back(std::move(*finding));
 }
 
-/// A share of the sensors, evenly; some dozens at least.
-Sensors some_of(const Sensors& all, double share) {
-  constexpr std::size_t kFewest = 64;
-  const auto wanted = static_cast<std::size_t>(share * static_cast<double>(all.size()));
-  const std::size_t count = std::min(all.size(), std::max(kFewest, wanted));
-  std::vector<std::uint32_t> chosen;
-  for (std::size_t k = 0; k < count; ++k) {
-    chosen.push_back(static_cast<std::uint32_t>(k * all.size() / count));
-  }
-  return sensors_of(all, chosen);
-}
-
 /// Each step of a study: what it makes goes into a file and into the report.
 class StudyRun {
  public:
@@ -144,49 +132,36 @@ class StudyRun {
     double spacing_m;
   };
 
-  /// All that is to be lit, in part, for its time.
-  DivisibleWork work_in_parts(const std::vector<PlacedField>& fields) const {
-    struct Part {
-      Sensors sensors;
-      double share_m;  ///< reflected light over
+  /// Seconds that the study is expected to take at a tolerance.
+  double expected_s(double tolerance_pct, const std::vector<PlacedField>& fields) const {
+    Study study = study_;
+    study.calculation.tolerance_percent = tolerance_pct;
+    const LightMethod method = method_of(study.calculation);
+    SceneReflection reflection(lit_, study.calculation.reflection);
+    double sum = 0.0;
+    const auto add_light = [&](const Sensors& sensors, double share_m) {
+      const IlluminanceOptions options = options_with(study.calculation, reflection, share_m);
+      sum += expected_light_s(sensors, lit_.engines(), lit_.source(), options, method);
     };
-    std::vector<Part> parts;
     for (const PlacedField& field : fields) {
-      parts.push_back({field.grid.sensors, kShare * field.spacing_m});
+      add_light(field.grid.sensors, kShare * field.spacing_m);
     }
-    for (const StudySensors& file : study_.sensors) {
-      parts.push_back({lit_.to_local(read_sensor_file(file.file)), 0.0});
+    for (const StudySensors& file : study.sensors) {
+      add_light(lit_.to_local(read_sensor_file(file.file)), 0.0);
     }
-    if (study_.plan) {
-      const GroundPlan ground = ground_plan(lit_, study_.plan->spacing_m);
-      parts.push_back({ground.sensors, kShare * ground.grid.cell_m});
+    if (study.plan) {
+      const GroundPlan ground = ground_plan(lit_, study.plan->spacing_m);
+      add_light(ground.sensors, kShare * ground.grid.cell_m);
     }
-    DivisibleWork work;
-    for (const Part& part : parts) work.count += part.sensors.size();
-    for (const StudyView& view : study_.views) {
-      work.count += static_cast<std::size_t>(view.size[0]) * static_cast<std::size_t>(view.size[1]);
-    }
-    work.run = [this, parts](double share, double tolerance_pct, Progress& quiet) {
-      Study study = study_;
-      study.calculation.tolerance_percent = tolerance_pct;
-      SceneReflection reflection(lit_, study.calculation.reflection);
-      const double apart = 1.0 / std::sqrt(share);
-      for (const Part& part : parts) {
-        if (part.sensors.size() == 0) continue;
-        light_to(study.calculation, reflection, some_of(part.sensors, share), apart * part.share_m,
-                 quiet);
-      }
-      for (const StudyView& view : study.views) render_small(view, study, share, reflection, quiet);
-    };
-    return work;
+    for (const StudyView& view : study.views) sum += expected_view_s(view, study, reflection);
+    return sum;
   }
 
   /// Chooses the tolerance of the study.
   /// @return whether the time allows any
   bool keep_within(double left_s, const std::vector<PlacedField>& fields) {
-    const DivisibleWork work = work_in_parts(fields);
-    if (work.count == 0) return true;
-    const TimedTolerance chosen = tolerance_within(work, left_s, progress_);
+    const TimedTolerance chosen = tolerance_within(
+        [&](double tolerance_pct) { return expected_s(tolerance_pct, fields); }, left_s, progress_);
     study_.calculation.tolerance_percent = chosen.tolerance_pct;
     report_.note(chosen.why);
     return chosen.is_reachable;
@@ -255,8 +230,10 @@ class StudyRun {
   /// @param what  the sensors, in words
   IlluminanceResult light(const Sensors& sensors, double share_reflected_m,
                           const std::string& what) {
-    IlluminanceResult result =
-        light_to(study_.calculation, reflection_, sensors, share_reflected_m, progress_);
+    const IlluminanceOptions options =
+        options_with(study_.calculation, reflection_, share_reflected_m);
+    IlluminanceResult result = illuminate(sensors, lit_.engines(), lit_.source(), options,
+                                          method_of(study_.calculation), progress_);
     reflection_.tell(result.findings);
     add(wide_texels(result.regions, lit_.scene().frame), result.findings);
     outcome_.out_of_tolerance += result.out_of_tolerance;
@@ -267,36 +244,36 @@ class StudyRun {
     return result;
   }
 
-  IlluminanceResult light_to(const StudyCalculation& calculation, SceneReflection& reflection,
-                             const Sensors& sensors, double share_reflected_m,
-                             Progress& progress) const {
+  static IlluminanceOptions options_with(const StudyCalculation& calculation,
+                                         SceneReflection& reflection, double share_reflected_m) {
     IlluminanceOptions options = illuminance_options_of(calculation);
     if (calculation.decide.empty()) {
       options.share_reflected_m = share_reflected_m;
     } else {
       options.decide = decision_threshold(calculation.decide);
     }
-    const LightMethod method = method_of(calculation);
-    options.reflection = reflection.finder(options, method);
-    return illuminate(sensors, lit_.engines(), lit_.source(), options, method, progress);
+    options.reflection = reflection.finder(options, method_of(calculation));
+    return options;
   }
 
-  /// A view of few pixels, for its time.
-  void render_small(StudyView view, const Study& study, double share, SceneReflection& reflection,
-                    Progress& progress) const {
-    constexpr double kFewest = 16.0;  // pixels along a side
-    for (int& side : view.size) {
-      side = std::min(side, static_cast<int>(std::max(kFewest, std::sqrt(share) * side)));
-    }
+  /// By radiosity the solution is found for one sensor; looking it up for each pixel is not in it.
+  double expected_view_s(const StudyView& view, const Study& study,
+                         SceneReflection& reflection) const {
     ViewRequest request = view_request_of(view, study, lit_);
-    std::unique_ptr<Background> background;
-    if (!view.background.empty()) {
-      background = read_background(view.background, view.background_white);
-      request.background = background.get();
+    const IlluminanceOptions options = options_with(study.calculation, reflection, 0.0);
+    Progress quiet;
+    const Stopwatch watch;
+    if (options.reflection != nullptr) {
+      request.bounces = 0;
+      SensorIlluminance one(1);
+      options.reflection->all({{request.view.target}, {kZenith}}, one, quiet);
     }
-    request.reflection =
-        reflection.finder(illuminance_options_of(study.calculation), request.method);
-    render_view(request, lit_.engines(), lit_.source(), lit_.sky().model.get(), progress);
+    const ViewPlan plan = plan_view(request, lit_.engines(), lit_.source(), quiet);
+    double sum = watch.seconds() + plan.reflection_s;
+    for (const PlannedRegion& region : plan.regions) {
+      sum += std::isfinite(region.predicted_s()) ? region.predicted_s() : 0.0;
+    }
+    return sum;
   }
 
   fs::path place(const std::string& name) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/error.h"
@@ -12,32 +11,20 @@
 namespace tenku {
 namespace {
 
-constexpr double kForPilots = 0.125;    // of the time
-constexpr double kFirstPilots = 256.0;  // sensors and pixels
-constexpr double kMorePilots = 4.0;     // times as many, while there is time
-constexpr double kUsualGrowth = 2.0;    // of the time from one tolerance to the next
-constexpr double kBeyond = 2.0;         // finer than what was tried, at most
-constexpr double kUsed = 0.85;          // of the time: files are written, and pilots err
-constexpr std::array kTolerances{kCoarsestTolerance_pct, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2,
-                                 kFinestTolerance_pct};
+constexpr double kForAsking = 0.25;    // of the time
+constexpr std::size_t kMostAsked = 5;  // times
+constexpr double kUsed = 0.85;         // of the time: files are written, and pilots err
+constexpr double kBeyond = 2.0;        // finer than what was asked, at most, for the choice
+constexpr double kFarther = 100.0;     // finer than what was asked, at most, for the next question
+constexpr double kNear = 1.15;         // of a tolerance that was asked: near enough
+constexpr double kFinerCosts = 2.0;    // power of the tolerance by which time rises, beyond
 
-double between(const ExpectedTime& a, const ExpectedTime& b, double seconds) {
-  const double rise = std::log(b.seconds / a.seconds);
-  if (!(rise > 0.0)) return b.tolerance_pct;
-  const double way = std::log(seconds / a.seconds) / rise;
-  return a.tolerance_pct * std::pow(b.tolerance_pct / a.tolerance_pct, way);
-}
-
-double seconds_at(const std::vector<ExpectedTime>& tried, double tolerance_pct) {
-  for (std::size_t k = 1; k < tried.size(); ++k) {
-    const bool is_last = k + 1 == tried.size();
-    if (tolerance_pct < tried[k].tolerance_pct && !is_last) continue;
-    const ExpectedTime &a = tried[k - 1], &b = tried[k];
-    const double way =
-        std::log(tolerance_pct / a.tolerance_pct) / std::log(b.tolerance_pct / a.tolerance_pct);
-    return a.seconds * std::pow(std::max(1.0, b.seconds / a.seconds), way);
-  }
-  return tried.front().seconds;
+/// Power of the tolerance by which time has risen last.
+double last_power(const std::vector<ExpectedTime>& tried) {
+  const ExpectedTime &a = tried[tried.size() - 2], &b = tried.back();
+  const double power =
+      std::log(b.seconds / a.seconds) / std::log(a.tolerance_pct / b.tolerance_pct);
+  return std::clamp(power, 0.5, kFinerCosts);
 }
 
 /// Two digits, never finer than what was found.
@@ -48,73 +35,80 @@ double rounded(double tolerance_pct) {
 
 }  // namespace
 
-TimedTolerance finest_within(const std::vector<ExpectedTime>& tried, double most_s) {
+TimedTolerance finest_within(const std::vector<ExpectedTime>& tried, double most_s, double beyond) {
   expects(!tried.empty(), "a tolerance was tried");
   TimedTolerance chosen;
   chosen.tried = tried;
   chosen.tolerance_pct = tried.front().tolerance_pct;
-  chosen.is_reachable = tried.front().seconds <= most_s;
-  for (std::size_t k = 1; k < tried.size() && chosen.is_reachable; ++k) {
-    const bool is_last = k + 1 == tried.size();
-    if (tried[k].seconds <= most_s && !is_last) continue;
-    const double finest = tried[k].tolerance_pct / (is_last ? kBeyond : 1.0);
-    const double found = between(tried[k - 1], tried[k], most_s);
-    chosen.tolerance_pct = rounded(
-        std::clamp(found, std::max(finest, kFinestTolerance_pct), tried[k - 1].tolerance_pct));
-    break;
+  chosen.expected_s = tried.front().seconds;
+  chosen.is_reachable = chosen.expected_s <= most_s;
+  if (!chosen.is_reachable) return chosen;
+  std::vector<ExpectedTime> known = tried;
+  const ExpectedTime finest = tried.back();
+  const double end = std::max(kFinestTolerance_pct, finest.tolerance_pct / beyond);
+  const double power = beyond > kBeyond && tried.size() > 1 ? last_power(tried) : kFinerCosts;
+  known.push_back({end, finest.seconds * std::pow(finest.tolerance_pct / end, power)});
+  std::size_t k = 1;
+  while (k + 1 < known.size() && known[k].seconds <= most_s) ++k;
+  const ExpectedTime &a = known[k - 1], &b = known[k];
+  if (b.seconds <= most_s) {
+    chosen.tolerance_pct = b.tolerance_pct;
+    chosen.expected_s = b.seconds;
+    return chosen;
   }
-  chosen.expected_s = seconds_at(tried, chosen.tolerance_pct);
+  const double way = std::log(most_s / a.seconds) / std::log(b.seconds / a.seconds);
+  const double ratio = b.tolerance_pct / a.tolerance_pct;
+  chosen.tolerance_pct = std::min(a.tolerance_pct, rounded(a.tolerance_pct * std::pow(ratio, way)));
+  const double back = std::log(chosen.tolerance_pct / a.tolerance_pct) / std::log(ratio);
+  chosen.expected_s = a.seconds * std::pow(b.seconds / a.seconds, back);
   return chosen;
 }
 
-TimedTolerance tolerance_within(const DivisibleWork& work, double left_s, Progress& progress) {
+TimedTolerance tolerance_within(const TimeModel& expected_s, double left_s, Progress& progress) {
   const Stopwatch watch;
-  Progress quiet;
-  const auto seconds = [&](double share, double tolerance) {
+  progress.begin("time limit", 0);
+  std::vector<ExpectedTime> tried;
+  double asked_s = 0.0;  // the last question
+  const auto ask = [&](double tolerance_pct) {
     progress.stop_if_cancelled();
     const Stopwatch one;
-    work.run(share, tolerance, quiet);
-    progress.advance(1);
-    return one.seconds();
-  };
-  const double for_pilots_s = kForPilots * left_s;
-  progress.begin("time limit", 0);
-  double share =
-      std::min(1.0, kFirstPilots / static_cast<double>(std::max<std::size_t>(1, work.count)));
-  seconds(share, kCoarsestTolerance_pct);  // memory is touched
-  double took = seconds(share, kCoarsestTolerance_pct), whole = took / share;
-  while (share < 1.0 && watch.seconds() + kMorePilots * took < 0.5 * for_pilots_s) {
-    const double more = std::min(1.0, kMorePilots * share);
-    const double longer = seconds(more, kCoarsestTolerance_pct);
-    const double slope = std::max(0.0, longer - took) / (more - share);
-    whole = longer + slope * (1.0 - more);
-    share = more, took = longer;
-  }
-  const double factor = whole / std::max(took, 1e-9);
-  std::vector<ExpectedTime> tried{{kTolerances.front(), whole}};
-  double growth = kUsualGrowth, last = took;
-  for (std::size_t k = 1; k < kTolerances.size(); ++k) {
-    if (tried.back().seconds > left_s || watch.seconds() + growth * last > for_pilots_s) break;
-    const double next = std::max(last, seconds(share, kTolerances[k]));
-    tried.push_back({kTolerances[k], factor * next});
-    growth = std::max(1.2, next / last), last = next;
-  }
-  const double most_s = kUsed * (left_s - watch.seconds());
-  TimedTolerance chosen = finest_within(tried, most_s);
-  const std::string spent =
-      fmt::format("pilots of {:.2g} % of the work, {:.1f} s", 100.0 * share, watch.seconds());
-  if (!chosen.is_reachable) {
-    chosen.why = fmt::format(
-        "the time limit is too short: even to {:g} % the work is expected to take {:.3g} s, {:.3g} "
-        "s "
-        "are left ({}); it is done to {:g} %",
-        chosen.tolerance_pct, chosen.expected_s, left_s, spent, chosen.tolerance_pct);
-  } else {
-    chosen.why = fmt::format("tolerance {:g} %: expected to take {:.3g} s of {:.3g} s left ({})",
-                             chosen.tolerance_pct, chosen.expected_s, left_s, spent);
-    for (const ExpectedTime& one : tried) {
-      chosen.why += fmt::format("; {:g} %: {:.3g} s", one.tolerance_pct, one.seconds);
+    tried.push_back({tolerance_pct, expected_s(tolerance_pct)});
+    asked_s = one.seconds();
+    std::sort(tried.begin(), tried.end(), [](const ExpectedTime& a, const ExpectedTime& b) {
+      return a.tolerance_pct > b.tolerance_pct;
+    });
+    for (std::size_t k = 1; k < tried.size(); ++k) {  // clocks err: finer is not sooner
+      tried[k].seconds = std::max(tried[k].seconds, tried[k - 1].seconds);
     }
+  };
+  const auto most_s = [&] { return kUsed * (left_s - watch.seconds()); };
+  ask(kCoarsestTolerance_pct);
+  while (tried.size() < kMostAsked && watch.seconds() + 1.5 * asked_s < kForAsking * left_s) {
+    const TimedTolerance next = finest_within(tried, most_s(), kFarther);
+    const bool is_known = std::any_of(tried.begin(), tried.end(), [&](const ExpectedTime& t) {
+      return std::max(t.tolerance_pct / next.tolerance_pct, next.tolerance_pct / t.tolerance_pct) <
+             kNear;
+    });
+    if (!next.is_reachable || is_known) break;
+    ask(next.tolerance_pct);
+  }
+  TimedTolerance chosen = finest_within(tried, most_s());
+  std::string times;
+  for (const ExpectedTime& one : tried) {
+    times += fmt::format("{}{:g} %: {:.3g} s", times.empty() ? "" : ", ", one.tolerance_pct,
+                         one.seconds);
+  }
+  const std::string left = fmt::format("{:.3g} s are left, asking took {:.1f} s of {:.3g} s",
+                                       left_s - watch.seconds(), watch.seconds(), left_s);
+  if (chosen.is_reachable) {
+    chosen.why = fmt::format("tolerance {:g} %: expected to take {:.3g} s; {} (expected at {})",
+                             chosen.tolerance_pct, chosen.expected_s, left, times);
+  } else {
+    chosen.why = fmt::format(
+        "the time limit is too short: even at {:g} % the work is expected to take {:.3g} s; {}; it "
+        "is "
+        "done at {:g} %",
+        chosen.tolerance_pct, chosen.expected_s, left, chosen.tolerance_pct);
   }
   progress.end(chosen.why);
   return chosen;
