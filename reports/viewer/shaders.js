@@ -1,6 +1,7 @@
 "use strict";
 // The same rule as the program's own splat buffer: round discs on the screen whose depth is a
 // shallow cone on the plane of their surface, cut at the borders of the surface.
+const kDisc = {cone: 0.5, steep: 16, overlap: 1.5, least: 0.6, seam: 0.02, reach: 1.5};
 const kPointShader = `#version 300 es
 precision highp float;
 precision highp int;
@@ -15,7 +16,9 @@ flat out vec4 vDisc;
 flat out vec4 vDepth;
 flat out vec3 vBorder0, vBorder1;
 flat out uint vColour;
-const float kCone = 0.5, kSteep = 16.0, kOverlap = 1.5, kLeast = 0.6, kSeam = 0.02, kReach = 1.5;
+const float kCone = ${kDisc.cone.toFixed(3)}, kSteep = ${kDisc.steep.toFixed(3)},
+            kOverlap = ${kDisc.overlap.toFixed(3)}, kLeast = ${kDisc.least.toFixed(3)},
+            kSeam = ${kDisc.seam.toFixed(3)}, kReach = ${kDisc.reach.toFixed(3)};
 vec3 normalOf(vec2 e) {
   vec3 n = vec3(e, 1.0 - abs(e.x) - abs(e.y));
   if (n.z < 0.0) n.xy = (1.0 - abs(n.yx)) * vec2(n.x < 0.0 ? -1.0 : 1.0, n.y < 0.0 ? -1.0 : 1.0);

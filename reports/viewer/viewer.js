@@ -69,6 +69,12 @@ function mayShow(camera, block, width, height, coarsest) {
   return true;
 }
 
+function isDrawnBySoftware(gl) {
+  const told = gl.getExtension("WEBGL_debug_renderer_info");
+  const name = gl.getParameter(told ? told.UNMASKED_RENDERER_WEBGL : gl.RENDERER);
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
+
 class PointPainter {
   constructor(canvas, facts) {
     const gl = canvas.getContext("webgl2", {antialias: false, preserveDrawingBuffer: true});
@@ -77,6 +83,7 @@ class PointPainter {
     this.chunks = [], this.targets = {};
     canvas.style.aspectRatio = `${facts.width} / ${facts.height}`;
     this.setDraft(false);
+    this.isByLoop = isDrawnBySoftware(gl);
     this.points = this.program(kPointShader, kDiscShader);
     this.show = this.program(kScreenTriangle, kShowShader);
     this.empty = gl.createVertexArray();
@@ -162,7 +169,11 @@ class PointPainter {
       arrays.push(this.array(points, colour, 1));
       drafts.push(this.array(points, colour, kDraftOf));
     }
-    this.chunks.push({blocks, arrays, drafts});
+    const {buffer} = geometry;
+    this.chunks.push({blocks, arrays, drafts,
+                      geometry: {words: new Uint16Array(buffer), signed: new Int16Array(buffer),
+                                 bytes: geometry},
+                      colours: colours.map((codes) => new Uint32Array(codes.buffer))});
   }
 
   target(texels) {
@@ -183,8 +194,45 @@ class PointPainter {
     return this.targets[name] = {frame, items, width, height};
   }
 
+  // Calls `what` for every block that may be in the picture, and counts their points.
+  eachBlock(camera, coarsest, every, what) {
+    const {width, height} = this.canvas;
+    let drawn = 0;
+    for (const chunk of this.chunks) {
+      for (const block of chunk.blocks) {
+        if (!mayShow(camera, block, width, height, coarsest)) continue;
+        what(chunk, block);
+        drawn += Math.ceil(block.points / every);
+      }
+    }
+    return drawn;
+  }
+
+  // What both ways of drawing points go by.
+  detailOf(state) {
+    // Off the path nothing finer may have been gathered: then all points are drawn.
+    return {coarsest: state.isFree ? [1e9, 1e9] : [1.4, 0.7], largest: 40,
+            grow: this.isDraft ? kDraftGrowth : 1,
+            every: this.isDraft ? kDraftOf : 1};  // divides what blocks but the last hold
+  }
+
+  loopPoints(camera, state, target) {
+    const gl = this.gl, {width, height} = this.canvas, detail = this.detailOf(state);
+    if (this.loop?.width !== width) this.loop = new DiscLoop(width, height, kMargin);
+    const {loop} = this;
+    loop.clear(kNothing);
+    const drawn = this.eachBlock(camera, detail.coarsest[0], detail.every, (chunk, block) => {
+      loop.drawBlock(block, chunk.geometry, chunk.colours[state.lighting], camera, detail);
+    });
+    gl.bindTexture(gl.TEXTURE_2D, target.items);
+    gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, loop.columns, loop.rows, gl.RED_INTEGER,
+                     gl.UNSIGNED_INT, loop.items);
+    return drawn;
+  }
+
   drawPoints(camera, state, target) {
     const gl = this.gl, {program, at} = this.points, {width, height} = this.canvas;
+    const detail = this.detailOf(state);
     gl.bindFramebuffer(gl.FRAMEBUFFER, target.frame);
     gl.viewport(0, 0, target.width, target.height);
     gl.useProgram(program);
@@ -197,33 +245,25 @@ class PointPainter {
     gl.uniform3fv(at.uForward, camera.forward);
     gl.uniform2f(at.uFrom, -0.5 * width, -0.5 * height);
     gl.uniform2f(at.uSize, width, height);
-    // Off the path nothing finer may have been gathered: then all points are drawn.
-    const coarsest = state.isFree ? [1e9, 1e9] : [1.4, 0.7];
-    gl.uniform2fv(at.uCoarsest, coarsest);
-    gl.uniform1f(at.uLargest, 40);
+    gl.uniform2fv(at.uCoarsest, detail.coarsest);
+    gl.uniform1f(at.uLargest, detail.largest);
     gl.uniform1f(at.uPixel, camera.pixel);
     gl.uniform1f(at.uMargin, kMargin);
     gl.uniform1f(at.uTexels, state.texels);
-    gl.uniform1f(at.uGrow, this.isDraft ? kDraftGrowth : 1);
-    const every = this.isDraft ? kDraftOf : 1;  // divides what blocks but the last hold
-    let drawn = 0;
-    for (const chunk of this.chunks) {
+    gl.uniform1f(at.uGrow, detail.grow);
+    return this.eachBlock(camera, detail.coarsest[0], detail.every, (chunk, block) => {
       gl.bindVertexArray((this.isDraft ? chunk.drafts : chunk.arrays)[state.lighting]);
-      for (const block of chunk.blocks) {
-        if (!mayShow(camera, block, width, height, coarsest[0])) continue;
-        const points = Math.ceil(block.points / every);
-        gl.uniform3fv(at.uOrigin, sum(block.origin, camera.eye, -1));
-        gl.uniform3fv(at.uStep, block.step);
-        gl.drawArrays(gl.POINTS, block.first / every, points);
-        drawn += points;
-      }
-    }
-    return drawn;
+      gl.uniform3fv(at.uOrigin, sum(block.origin, camera.eye, -1));
+      gl.uniform3fv(at.uStep, block.step);
+      gl.drawArrays(gl.POINTS, block.first / detail.every, Math.ceil(block.points / detail.every));
+    });
   }
 
   draw(camera, state) {
     const gl = this.gl, target = this.target(state.texels), lighting = state.light;
-    const drawn = this.drawPoints(camera, state, target);
+    const byLoop = this.isByLoop && state.texels === 1;
+    const drawn = byLoop ? this.loopPoints(camera, state, target)
+                         : this.drawPoints(camera, state, target);
     const {program, at} = this.show;
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     gl.viewport(0, 0, this.canvas.width, this.canvas.height);

@@ -131,6 +131,14 @@ double mean_difference(const json& rgba, const Image8& picture) {
   return sum / (3.0 * picture.width * picture.height);
 }
 
+double mean_difference(const json& rgba, const json& other) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < rgba.size(); ++k) {
+    sum += std::abs(rgba[k].get<int>() - other.at(k).get<int>());
+  }
+  return sum / (0.75 * static_cast<double>(rgba.size()));
+}
+
 TEST(PlayCommand, ThePageShowsTheFramesThatTheProgramDraws) {
   const fs::path folder = test_folder();
   write_floor_store(folder / "f.tkpts");
@@ -148,9 +156,17 @@ TEST(PlayCommand, ThePageShowsTheFramesThatTheProgramDraws) {
     element("false").click(); shot(); element("false").click();
     p.setLighting(1); shot();
     p.look(10, 0); shot();
-    p.setLighting(0); element("samples").value = "0.5"; p.goTo(0);
-    const draft = new Uint8Array(4 * 32 * 24);
-    gl.readPixels(0, 0, 32, 24, gl.RGBA, gl.UNSIGNED_BYTE, draft);
+    p.setLighting(0);
+    const byLoop = p.painter.isByLoop, drafts = [];
+    for (const isByLoop of [true, false]) {
+      p.painter.isByLoop = isByLoop;
+      element("samples").value = "1"; p.goTo(5); shot();
+      p.look(10, 0); shot();
+      element("samples").value = "0.5"; p.goTo(0);
+      const draft = new Uint8Array(4 * 32 * 24);
+      gl.readPixels(0, 0, 32, 24, gl.RGBA, gl.UNSIGNED_BYTE, draft);
+      drafts.push([...draft]);
+    }
     const draftWidth = p.painter.canvas.width;
     element("samples").value = "auto"; p.goTo(0);
     const restWidth = p.painter.canvas.width;
@@ -160,8 +176,8 @@ TEST(PlayCommand, ThePageShowsTheFramesThatTheProgramDraws) {
       await new Promise((done) => setTimeout(done, 100));
       later = p.frame;
     }
-    return {shots, draft: [...draft], draftWidth, restWidth, later, glError: gl.getError(), hours: element("hour").options.length,
-            ticks: element("ticks").children.length};
+    return {shots, drafts, byLoop, draftWidth, restWidth, later, glError: gl.getError(),
+            hours: element("hour").options.length, ticks: element("ticks").children.length};
   }))js");
   if (!said) GTEST_SKIP() << "skipped: no chromium";
   EXPECT_EQ(said->at("errors"), json::array());
@@ -182,7 +198,12 @@ TEST(PlayCommand, ThePageShowsTheFramesThatTheProgramDraws) {
   EXPECT_EQ(value.at("restWidth"), 64);
   // In the lower half, which is all floor, nothing shows through one point of four.
   const int sky = tone_map(player.frame(0), how).at(0, 0).r;
-  for (std::size_t p = 0; p < 32 * 12; ++p) EXPECT_NE(value.at("draft")[4 * p], sky) << p;
+  for (const json& draft : value.at("drafts")) {
+    for (std::size_t p = 0; p < 32 * 12; ++p) EXPECT_NE(draft[4 * p], sky) << p;
+  }
+  // The browser draws in software: points by the loop, which shows what the shaders show.
+  EXPECT_TRUE(value.at("byLoop"));
+  for (const std::size_t k : {5U, 6U}) EXPECT_LE(mean_difference(shots[k], shots[k + 2]), 0.5) << k;
   EXPECT_LE(mean_difference(shots[1], tone_map(player.frame(5), how)), 0.5);
   EXPECT_LE(mean_difference(shots[2], false_colour(player.frame(5), tone.scale)), 0.5);
   EXPECT_LE(mean_difference(shots[3], tone_map(evening.frame(5), how)), 0.5);
