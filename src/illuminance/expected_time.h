@@ -17,7 +17,9 @@ IlluminanceOptions options_for_sharing(const IlluminanceOptions& options);
 /// neighbours, a twentieth of all, tell how many representatives there are. By radiosity: the
 /// solution, for a few sensors. With a value to decide on: all of it for a few sensors.
 ///
-/// Error    within 30 % in the studies of docs/benchmarks.md, "Time limits".
+/// Error    too much where reflected light rules, since later sensors find what earlier ones
+/// stored:
+///          up to 2.3 times (docs/benchmarks.md, "Time limits").
 double expected_light_s(const Sensors& sensors, const Engines& engines,
                         const DaylightSource& source, const IlluminanceOptions& options,
                         const LightMethod& method);
