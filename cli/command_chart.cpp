@@ -12,6 +12,7 @@
 #include "core/parallel.h"
 #include "study/chart_files.h"
 #include "study/chart_settings.h"
+#include "study/time_limit.h"
 
 namespace tenku {
 namespace {
@@ -24,24 +25,6 @@ struct ChartOptions {
   std::string budget = "120s";
   std::vector<std::string> stages{"all"};
 };
-
-/// `120`, `120s`, `2m`.
-double seconds_of(const std::string& text) {
-  std::size_t read = 0;
-  double value = 0.0;
-  try {
-    value = std::stod(text, &read);
-  } catch (const std::exception&) {
-    read = 0;
-  }
-  const std::string unit = text.substr(read);
-  if (unit == "m" || unit == "min") value *= 60.0;
-  const bool is_known = unit.empty() || unit == "s" || unit == "m" || unit == "min";
-  if (read == 0 || !is_known || !(value >= 1.0) || !(value <= 86400.0)) {
-    throw InputError("a budget is 1s to 86400s, such as 120s or 2m, not '" + text + "'");
-  }
-  return value;
-}
 
 /// Some hundred on what there is first of ground, roofs and walls.
 Sensors usual_sensors(const LitScene& lit, std::string& told) {
@@ -105,7 +88,7 @@ void tell(const ChartResult& result, const CommonOptions& common,
 }
 
 int chart(const ChartOptions& options, const CommandContext& context) {
-  const double budget_s = seconds_of(options.budget);
+  const double budget_s = seconds_named(options.budget, "a budget");
   check_chart_stages(options.stages);
   const std::filesystem::path folder = options.lit.out;
   if (options.lit.out == "-") throw InputError("a chart needs a folder: --out DIR");

@@ -21,6 +21,7 @@ namespace {
 struct IlluminanceCommandOptions {
   LitSceneOptions lit;
   SensorOptions sensors;
+  std::string decide;
 };
 
 bool is_city_file(const std::string& out) { return out.ends_with(".json"); }
@@ -49,20 +50,25 @@ void write_result(const IlluminanceCommandOptions& options, const LitScene& lit,
     return write_whole_file(out, glb_of_grid(lit, *placed.grid, result.values));
   }
   if (!out.ends_with(".vtp")) {
-    illuminance_table(placed.in_file.position, placed.in_file.normal, result.values).write(out);
+    illuminance_table(placed.in_file.position, placed.in_file.normal, result.values, result.decided)
+        .write(out);
     return;
   }
-  FieldMesh mesh = placed.grid ? field_of_grid(lit, *placed.grid, result.values)
-                               : field_of_points(lit, placed.sensors, result.values);
+  FieldMesh mesh = placed.grid
+                       ? field_of_grid(lit, *placed.grid, result.values, result.decided)
+                       : field_of_points(lit, placed.sensors, result.values, result.decided);
   write_vtp(out, mesh);
 }
 
 int illuminance(const IlluminanceCommandOptions& options, const CommandContext& context) {
   check_request(options);
+  std::optional<DecisionThreshold> decide;
+  if (!options.decide.empty()) decide = decision_threshold(options.decide);
   const auto start = std::chrono::steady_clock::now();
   const LitScene lit = load_lit_scene(options.lit, context.progress);
   const PlacedSensors placed = place_sensors(options.sensors, lit);
   IlluminanceOptions how = illuminance_options(options.lit, context.options);
+  how.decide = decide;
   const LightMethod method = light_method(options.lit);
   SceneReflection reflection(lit, reflection_named(options.lit.reflection));
   how.reflection = reflection.finder(how, method);
@@ -80,6 +86,8 @@ int illuminance(const IlluminanceCommandOptions& options, const CommandContext& 
                             .count = placed.sensors.size(),
                             .out_of_tolerance = result.out_of_tolerance,
                             .error_mean = result.values.mean_error_lux(),
+                            .decide = options.decide,
+                            .decided = counts_of(result.decided),
                             .regions = result.regions,
                             .findings = result.findings});
 }
@@ -91,6 +99,9 @@ CommandBody make_illuminance_command(CLI::App& app) {
   add_lit_scene_options(app, options->lit);
   add_out_option(app, options->lit);
   add_sensor_options(app, options->sensors);
+  app.add_option("--decide", options->decide,
+                 "only tell sensors from a value: 300lx in all, or 27%sky, skylight of the open "
+                 "field's; those clear of it stop early");
   return [options](const CommandContext& context) { return illuminance(*options, context); };
 }
 

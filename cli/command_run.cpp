@@ -7,6 +7,7 @@
 #include "cli/lit_scene_options.h"
 #include "study/run_study.h"
 #include "study/study_reader.h"
+#include "study/time_limit.h"
 
 namespace tenku {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 struct RunOptions {
   std::string study, out;
   StudyOverrides overrides;
-  std::string scene;
+  std::string scene, time_limit;
 };
 
 bool has(const std::filesystem::path& path, const char* ending) {
@@ -38,16 +39,22 @@ void say_where_to_look(const CommonOptions& options, const StudyOutcome& outcome
 
 int run(RunOptions options, const CommandContext& context) {
   options.overrides.scene = options.scene;
+  std::optional<double> time_limit_s;
+  if (!options.time_limit.empty()) time_limit_s = seconds_named(options.time_limit, "a time limit");
   Study study = read_study(options.study, options.overrides);
-  const StudyOutcome outcome = run_study(study, options.out, context.progress);
+  const StudyOutcome outcome = run_study(study, options.out, context.progress, time_limit_s);
   say_findings(context.options, outcome.findings);
   say_where_to_look(context.options, outcome);
   if (context.options.json) {
     nlohmann::ordered_json summary{{"out_of_tolerance", outcome.out_of_tolerance}};
+    if (time_limit_s) {
+      summary["tolerance_percent"] = outcome.tolerance_pct;
+      summary["is_in_time"] = outcome.is_in_time;
+    }
     for (const auto& file : outcome.files) summary["files"].push_back(file.string());
     fmt::print("{}\n", summary.dump(2));
   }
-  return outcome.out_of_tolerance > 0 ? kToleranceNotReached : kDone;
+  return outcome.out_of_tolerance > 0 || !outcome.is_in_time ? kToleranceNotReached : kDone;
 }
 
 }  // namespace
@@ -58,6 +65,9 @@ CommandBody make_run_command(CLI::App& app) {
   app.add_option("--out", options->out, "folder for the results; made if need be")->required();
   app.add_option("--scene", options->scene, "scene file in place of the study's");
   app.add_option("--time", options->overrides.time, "time in place of the study's");
+  app.add_option("--time-limit", options->time_limit,
+                 "60s or 2m: the finest tolerance that is expected to end by then, in place of the "
+                 "study's");
   return [options](const CommandContext& context) { return run(*options, context); };
 }
 

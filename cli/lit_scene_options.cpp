@@ -86,18 +86,26 @@ int close_calculation(const CommonOptions& options, const LitScene& lit,
   }
   say_findings(options, findings);
   if (is_worth_telling(summary.regions)) say(options, table_of(summary.regions));
+  const DecisionCounts& decided = summary.decided;
+  if (!summary.decide.empty()) say(options, in_words(summary.decide, decided));
   if (options.json) {
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - summary.start;
-    const nlohmann::ordered_json json{{"seconds", time.count()},
-                                      {"rays", summary.rays},
-                                      {"depth_maps", lit.engines().maps_drawn()},
-                                      {"elements", lit.source().element_count()},
-                                      {summary.counted, summary.count},
-                                      {"error_mean", summary.error_mean},
-                                      {"out_of_tolerance", summary.out_of_tolerance},
-                                      {"sky", lit.sky().description},
-                                      {"horizontal_lux", lit.source().unobstructed_lux()},
-                                      {"plan", json_of(summary.regions)}};
+    nlohmann::ordered_json json{{"seconds", time.count()},
+                                {"rays", summary.rays},
+                                {"depth_maps", lit.engines().maps_drawn()},
+                                {"elements", lit.source().element_count()},
+                                {summary.counted, summary.count},
+                                {"error_mean", summary.error_mean},
+                                {"out_of_tolerance", summary.out_of_tolerance},
+                                {"sky", lit.sky().description},
+                                {"horizontal_lux", lit.source().unobstructed_lux()},
+                                {"plan", json_of(summary.regions)}};
+    if (!summary.decide.empty()) {
+      json["decided"] = {{"value", summary.decide},
+                         {"yes", decided.yes},
+                         {"no", decided.no},
+                         {"undecided", decided.undecided}};
+    }
     fmt::print("{}\n", json.dump(2));
   }
   return summary.out_of_tolerance > 0 ? kToleranceNotReached : kDone;

@@ -27,6 +27,7 @@ class ErrorBudget {
   }
 
   static constexpr double kErrorsInTolerance = 4.0;
+  static constexpr double kErrorsIn95 = 1.959963984540054;  ///< normal quantile of 0.975
 
  private:
   double relative_, floor_lux_;
@@ -35,8 +36,7 @@ class ErrorBudget {
 /// Half-width of the 95 % interval from the variance of what was sampled (all parts independent)
 /// and the bound on what was left out.
 inline double interval_lux(double variance, double left_out_lux) {
-  constexpr double k95 = 1.959963984540054;  // normal quantile of 0.975
-  return k95 * std::sqrt(variance) + left_out_lux;
+  return ErrorBudget::kErrorsIn95 * std::sqrt(variance) + left_out_lux;
 }
 
 }  // namespace tenku

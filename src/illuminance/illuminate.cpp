@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/random.h"
+#include "illuminance/expected_time.h"
 #include "illuminance/lamp_sampler.h"
 #include "illuminance/reflected_light.h"
 #include "illuminance/sensor_sky.h"
@@ -20,8 +21,12 @@
 namespace tenku {
 namespace {
 
-constexpr std::size_t kGrain = 16;      // sensors a task
-constexpr double kSureOfDark = 512.0;   // slices times tolerance after which no sky is believed
+constexpr std::size_t kGrain = 16;     // sensors a task
+constexpr double kSureOfDark = 512.0;  // slices times tolerance after which no sky is believed
+// Standard errors that a value must be clear of a threshold by to stop early. Effort doubles up to
+// eight times, each a chance to err: 0.05 / 8 on both sides (Bonferroni), so that all looks
+// together err once in twenty.
+constexpr double kErrorsToStop = 2.74;
 constexpr int kMostSharedPaths = 2048;  // more would know one place better than those around it
 constexpr double kDark_lux = 0.01;      // a moonless night, and what is left of rounding
 constexpr double kBlended = 4.0;        // errors of blended representatives in one of their mean
@@ -34,6 +39,20 @@ void check_options(const IlluminanceOptions& options) {
   if (options.bounces < 0 || options.bounces > 100) {
     throw InputError("bounces " + std::to_string(options.bounces) + " is not in 0..100");
   }
+}
+
+/// Of the total or the skylight, in lux; below zero: nothing to decide.
+double threshold_lux(const IlluminanceOptions& options, const DaylightSource& source) {
+  if (!options.decide) return -1.0;
+  const double sky_lux = source.sky ? source.sky->horizontal_lux() : 0.0;
+  if (options.decide->of == DecisionThreshold::Of::Skylight && !(sky_lux > 0.0)) {
+    throw InputError("a share of the sky cannot be decided on without a sky: give --sky");
+  }
+  return options.decide->lux(sky_lux);
+}
+
+bool is_of_skylight(const IlluminanceOptions& options) {
+  return options.decide && options.decide->of == DecisionThreshold::Of::Skylight;
 }
 
 Rgb not_below_zero(Rgb c) { return {std::max(0.0, c.r), std::max(0.0, c.g), std::max(0.0, c.b)}; }
@@ -64,6 +83,7 @@ class SensorWork {
         sky_(rays, source.sky.get(), at.position(), at.normal(),
              SampleRandom(options.seed, at.index, 0),
              SensorSky::Effort{.first_slices = options.first_slices}),
+        threshold_lux_(threshold_lux(options, source)),
         sun_(rays, source.sun, at.position(), at.normal(),
              mix_bits(mix_bits(options.seed) + at.index)) {
     if (options.known_direct != nullptr) known_direct_ = options.known_direct->lux[at.index];
@@ -86,11 +106,22 @@ class SensorWork {
                                                       : light_of_sky().sky_view));
       reflected_->refine();
     }
-    while (refinable_variance() > budget.allowed_variance(total())) {
+    while (!is_clear()) {
+      const bool is_exact = refinable_variance() <= budget.allowed_variance(total());
+      if (is_exact && !wants_skylight(budget)) break;
       progress.stop_if_cancelled();
-      if (!refine_worst()) return false;
+      if (is_exact) {
+        sky_.refine();
+      } else if (!refine_worst()) {
+        return decided() != Decided::Undecided;
+      }
     }
-    return interval() <= budget.allowed_lux(total());
+    return decided() != Decided::Undecided || interval() <= budget.allowed_lux(total());
+  }
+
+  Decided decided() const {
+    if (!(threshold_lux_ > 0.0)) return Decided::Undecided;
+    return decided_by(judged_lux(), judged_interval(ErrorBudget::kErrorsIn95), threshold_lux_);
   }
 
   void store(SensorIlluminance& values, std::size_t index) const {
@@ -114,7 +145,7 @@ class SensorWork {
       return;
     }
     do {
-      sky_.refine(budget.allowed_variance(total()));
+      sky_.refine(std::max(budget.allowed_variance(total()), clear_variance()));
     } while (sky_.may_miss_openings() && sky_.slices() * options_.tolerance_pct < kSureOfDark);
   }
 
@@ -134,6 +165,34 @@ class SensorWork {
   double interval() const {
     return interval_lux(refinable_variance() + by_elements_.variance,
                         reflected_ ? reflected_->left_out_lux() : 0.0);
+  }
+
+  /// What is held against the threshold: the total, or the skylight in it.
+  double judged_lux() const { return of_skylight_ ? light_of_sky().lux : total(); }
+  double left_out_lux() const {
+    return reflected_ && !of_skylight_ ? reflected_->left_out_lux() : 0.0;
+  }
+  double judged_variance() const {
+    return of_skylight_ ? light_of_sky().variance : refinable_variance() + by_elements_.variance;
+  }
+  double judged_interval(double standard_errors) const {
+    return standard_errors * std::sqrt(judged_variance()) + left_out_lux();
+  }
+  bool is_clear() const {
+    return threshold_lux_ > 0.0 && decided_by(judged_lux(), judged_interval(kErrorsToStop),
+                                              threshold_lux_) != Decided::Undecided;
+  }
+  /// Variance that the value, as it is now, may have to be clear of the threshold.
+  double clear_variance() const {
+    if (!(threshold_lux_ > 0.0) || (reflected_ && !of_skylight_)) return 0.0;
+    const double sd = std::abs(judged_lux() - threshold_lux_) / kErrorsToStop;
+    return sd * sd;
+  }
+  /// Whether the skylight by itself is to be told from the threshold, and is not exact enough.
+  bool wants_skylight(const ErrorBudget& budget) const {
+    return of_skylight_ && elements_ == nullptr && known_direct_ < 0.0 &&
+           sky_.slices() < options_.most_slices &&
+           sky_.variance() > budget.allowed_variance(sky_.lux());
   }
 
   /// Doubles the effort of the part where that gains the most for its rays, of those that can
@@ -167,6 +226,8 @@ class SensorWork {
   Place at_;
   ElementSky::Light by_elements_;
   SensorSky sky_;
+  double threshold_lux_;  ///< below zero: none
+  bool of_skylight_ = is_of_skylight(options_);
   SensorSun sun_;
   std::optional<ReflectedLight> reflected_;
   double known_direct_ = -1.0;  ///< below zero: not known
@@ -248,10 +309,27 @@ void judge_whole(const Sensors& sensors, const DaylightSource& source,
   for (std::size_t s = 0; s < values.size(); ++s) {
     result.is_missed[s] |= !(values.error_lux[s] <= budget.allowed_lux(values.total_lux(s)));
   }
+  decide_totals(source, options, result);
   tell_missed(result);
 }
 
 }  // namespace
+
+void decide_totals(const DaylightSource& source, const IlluminanceOptions& options,
+                   IlluminanceResult& result) {
+  if (!options.decide) return;
+  const double threshold = threshold_lux(options, source);
+  const SensorIlluminance& values = result.values;
+  if (!is_of_skylight(options)) {
+    result.decided.resize(values.size());
+    for (std::size_t s = 0; s < values.size(); ++s) {
+      result.decided[s] = decided_by(values.total_lux(s), values.error_lux[s], threshold);
+    }
+  }
+  for (std::size_t s = 0; s < values.size(); ++s) {
+    if (result.decided[s] != Decided::Undecided) result.is_missed[s] = 0;
+  }
+}
 
 IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
                              const DaylightSource& source, const IlluminanceOptions& options,
@@ -262,6 +340,7 @@ IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
     // Direct light of every sensor; then reflected light, or that of some spread over the others.
     IlluminanceOptions direct = options;
     direct.bounces = 0;
+    if (!is_of_skylight(options)) direct.decide.reset();  // what is reflected is still to come
     IlluminanceResult result = illuminate(sensors, rays, source, direct, progress);
     add_reflection(sensors, rays, source, options, progress, result);
     return result;
@@ -270,6 +349,8 @@ IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
   IlluminanceResult result;
   result.values = SensorIlluminance(sensors.size());
   result.is_missed.resize(sensors.size());
+  threshold_lux(options, source);  // refuses what it cannot decide
+  if (options.decide) result.decided.resize(sensors.size());
   std::atomic<std::uint64_t> rays_sent{0};
   std::unique_ptr<PathLight> paths;
   if (options.bounces > 0) {
@@ -282,6 +363,7 @@ IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
       SensorWork work({sensors, i}, rays, source, paths.get(), options);
       result.is_missed[i] = !work.finish(budget, progress);
       work.store(result.values, i);
+      if (options.decide) result.decided[i] = work.decided();
       rays_sent += work.rays_sent();
     }
     progress.advance(range.end - range.begin);
@@ -318,6 +400,7 @@ void add_shared_reflection(const ReflectedSharing& sharing, const RayVisibility&
   IlluminanceOptions reflected = options;
   reflected.share_reflected_m = 0.0;
   reflected.known_direct = &known;
+  reflected.decide.reset();
   const IlluminanceResult some = illuminate(few, rays, source, reflected, progress);
   sharing.spread(some.values, result.values);
   result.rays += some.rays;
@@ -327,14 +410,20 @@ void add_shared_reflection(const ReflectedSharing& sharing, const RayVisibility&
   tell_missed(result);
 }
 
+IlluminanceOptions options_for_sharing(const IlluminanceOptions& options) {
+  IlluminanceOptions reflected = options;
+  reflected.floor_share = 0.01;  // what is shared is not exact to that in any case
+  reflected.tolerance_pct = std::min(100.0, kBlended * options.tolerance_pct);
+  reflected.most_paths = std::min(options.most_paths, kMostSharedPaths);
+  return reflected;
+}
+
 void add_reflection(const Sensors& sensors, const RayVisibility& rays, const DaylightSource& source,
                     const IlluminanceOptions& options, Progress& progress,
                     IlluminanceResult& result) {
   IlluminanceOptions reflected = options;
   if (options.share_reflected_m > 0.0) {
-    reflected.floor_share = 0.01;  // what is shared is not exact to that in any case
-    reflected.tolerance_pct = std::min(100.0, kBlended * options.tolerance_pct);
-    reflected.most_paths = std::min(options.most_paths, kMostSharedPaths);
+    reflected = options_for_sharing(options);
     const ReflectedSharing sharing(
         sensors, sharing_by_distance(sensors, result.values.sky_view, options.share_reflected_m),
         rays);
@@ -349,6 +438,7 @@ void add_reflection(const Sensors& sensors, const RayVisibility& rays, const Day
   for (std::size_t s = 0; s < sensors.size(); ++s) known.lux.push_back(result.values.total_lux(s));
   known.sky_view = result.values.sky_view;
   reflected.known_direct = &known;
+  reflected.decide.reset();
   const IlluminanceResult more = illuminate(sensors, rays, source, reflected, progress);
   result.rays += more.rays;
   for (std::size_t s = 0; s < sensors.size(); ++s) {

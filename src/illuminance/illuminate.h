@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "core/finding.h"
 #include "core/progress.h"
 #include "illuminance/daylight_source.h"
+#include "illuminance/decision.h"
 #include "illuminance/error_budget.h"
 #include "illuminance/planned_region.h"
 #include "illuminance/reflected_sharing.h"
@@ -47,6 +49,10 @@ struct IlluminanceOptions {
   const ReflectionFinder* reflection = nullptr;  ///< in place of paths. Borrowed
   bool lamps_apart = false;  ///< light straight from lamps is left to `add_lamp_light`
   bool by_slices = false;    ///< even where `source.elements` is given
+  /// Sensors are only to be told from this value: one whose interval is clear of it is refined no
+  /// further, however wide that is; the others reach the tolerance. Where light comes in parts
+  /// (`reflection`, `share_reflected_m`, shadow maps) decisions on the total save nothing.
+  std::optional<DecisionThreshold> decide;
 };
 
 /// What came out, and what it took.
@@ -55,18 +61,27 @@ struct IlluminanceResult {
   std::uint64_t rays = 0;
   /// [sensor], whether it is less exact than the tolerance: its interval is wider, or the limit of
   /// effort came before the budget was met.
+  /// Sensors that are decided are never missed.
   std::vector<std::uint8_t> is_missed;
   std::size_t out_of_tolerance = 0;  ///< how many of them
+  std::vector<Decided> decided;      ///< [sensor], if there was something to decide
   std::vector<Finding> findings;
   /// What was planned and what became of it, where the engine was for the plan to choose.
   std::vector<PlannedRegion> regions;
 };
 
+/// Holds the totals of all sensors against the threshold, unless it is on skylight and held against
+/// already.
+void decide_totals(const DaylightSource& source, const IlluminanceOptions& options,
+                   IlluminanceResult& result);
+
 /// Illuminance of every sensor. Rays are spent where the interval is still too wide. Where
 /// `source.elements` is given, they settle the error of the skylight; sensors with an interval
 /// wider than the tolerance are then out of tolerance.
 /// Same bits for any number of threads.
-/// @throws InputError  tolerance not in (0, 100], bounces not in 0..100
+/// @throws InputError  tolerance not in (0, 100], bounces not in 0..100, a share of a sky that is
+/// not
+///                     there to decide on
 /// @throws Cancelled   if the user asks to stop
 IlluminanceResult illuminate(const Sensors& sensors, const RayVisibility& rays,
                              const DaylightSource& source, const IlluminanceOptions& options,

@@ -27,6 +27,7 @@ class PlannedLight {
     result_.values = SensorIlluminance(sensors.size());
     result_.is_missed.resize(sensors.size());
     options_.bounces = 0;
+    options_.decide.reset();  // what maps find is held against it afterwards
   }
 
   void light(RegionWork& work) {
@@ -129,6 +130,18 @@ bool is_each_for_itself(const std::vector<RegionWork>& plan) {
   });
 }
 
+/// Skylight alone, with the interval of sun and sky together: no decision errs for that.
+void hold_direct_against(const DecisionThreshold& threshold, const DaylightSource& source,
+                         IlluminanceResult& result) {
+  if (threshold.of != DecisionThreshold::Of::Skylight) return;
+  const double lux = threshold.lux(source.sky ? source.sky->horizontal_lux() : 0.0);
+  const SensorIlluminance& values = result.values;
+  result.decided.resize(values.size());
+  for (std::size_t s = 0; s < values.size(); ++s) {
+    result.decided[s] = decided_by(values.sky_lux[s], values.error_lux[s], lux);
+  }
+}
+
 /// Rays light all regions at once: one line for all of them.
 PlannedRegion told_together(const std::vector<RegionWork>& plan) {
   PlannedRegion all = plan.front().told;
@@ -168,6 +181,11 @@ IlluminanceResult illuminate(const Sensors& sensors, const Engines& engines,
         "the paper's level of detail goes by the size of polygons in a picture: sensors have none; "
         "use --lod budget or off");
   }
+  // Each sensor stops by itself: the others' rays are spared, and nothing is taken from neighbours.
+  if (options.decide && method.engine != EngineChoice::ShadowMaps &&
+      method.detail != Detail::Paper) {
+    return illuminate(sensors, engines.rays(), source, options, progress);
+  }
   std::vector<RegionWork> plan = plan_light(sensors, engines, source, options, method, progress);
   if (is_each_for_itself(plan)) {
     const Stopwatch watch;
@@ -183,8 +201,12 @@ IlluminanceResult illuminate(const Sensors& sensors, const Engines& engines,
   PlannedLight light(sensors, engines, source, options, method, progress);
   for (RegionWork& work : plan) light.light(work);
   IlluminanceResult result = light.take();
+  if (options.decide) hold_direct_against(*options.decide, source, result);
   if (options.bounces > 0) {
     add_reflection(sensors, engines.rays(), source, options, progress, result);
+  } else if (options.decide) {
+    decide_totals(source, options, result);
+    tell_missed(result);
   }
   return result;
 }

@@ -65,12 +65,14 @@ void add_illuminance(CsvTable& table, const SensorInFile& sensor, const SensorIl
 }
 
 CsvTable illuminance_table(std::span<const Vec3> positions, std::span<const Vec3> normals,
-                           const SensorIlluminance& results) {
+                           const SensorIlluminance& results, std::span<const Decided> decided) {
   expects(positions.size() == results.size() && normals.size() == results.size(),
           "each sensor has a position, a normal and a result");
-  CsvTable table(kIlluminanceHeader);
+  expects(decided.empty() || decided.size() == results.size(), "each sensor is decided or not");
+  CsvTable table(std::string(kIlluminanceHeader) + (decided.empty() ? "" : ",decided"));
   for (std::size_t i = 0; i < results.size(); ++i) {
     add_illuminance(table, {positions[i], normals[i]}, results, i);
+    if (!decided.empty()) table.add(name_of(decided[i]));
     table.end_row();
   }
   return table;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/vec3.h"
+#include "illuminance/decision.h"
 #include "illuminance/sensor.h"
 
 namespace tenku {
@@ -61,7 +62,8 @@ void add_illuminance(CsvTable& table, const SensorInFile& sensor, const SensorIl
 /// Table of `results` on sensors, in their order.
 ///
 /// @param positions, normals  as the user gave them, in the coordinates of the scene file
+/// @param decided  a last column `decided`, unless it is empty
 CsvTable illuminance_table(std::span<const Vec3> positions, std::span<const Vec3> normals,
-                           const SensorIlluminance& results);
+                           const SensorIlluminance& results, std::span<const Decided> decided = {});
 
 }  // namespace tenku

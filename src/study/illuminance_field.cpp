@@ -18,7 +18,8 @@ FieldValues picked(std::string name, const std::vector<double>& values, const Pi
   return field;
 }
 
-void add_light(FieldMesh& mesh, const SensorIlluminance& values, const Pick& sensor) {
+void add_light(FieldMesh& mesh, const SensorIlluminance& values, std::span<const Decided> decided,
+               const Pick& sensor) {
   std::vector<double> total(values.size());
   for (std::size_t i = 0; i < values.size(); ++i) total[i] = values.total_lux(i);
   mesh.point_values.push_back(picked("sun_lux", values.sun_lux, sensor));
@@ -27,6 +28,10 @@ void add_light(FieldMesh& mesh, const SensorIlluminance& values, const Pick& sen
   mesh.point_values.push_back(picked("total_lux", total, sensor));
   mesh.point_values.push_back(picked("error_lux", values.error_lux, sensor));
   mesh.point_values.push_back(picked("sky_view", values.sky_view, sensor));
+  if (decided.empty()) return;
+  std::vector<double> codes;
+  for (const Decided d : decided) codes.push_back(static_cast<double>(d));
+  mesh.point_values.push_back(picked("decided", codes, sensor));
 }
 
 std::string text_of(Vec3 v) {
@@ -79,7 +84,7 @@ void add_place(FieldMesh& mesh, const LitScene& lit) {
 }
 
 FieldMesh field_of_grid(const LitScene& lit, const SensorGrid& grid,
-                        const SensorIlluminance& values) {
+                        const SensorIlluminance& values, std::span<const Decided> decided) {
   FieldMesh mesh;
   Pick sensor;
   for (std::size_t part = 0; part < grid.corner_sensor.size(); ++part) {
@@ -91,19 +96,19 @@ FieldMesh field_of_grid(const LitScene& lit, const SensorGrid& grid,
     }
     mesh.add_polygon(corners);
   }
-  add_light(mesh, values, sensor);
+  add_light(mesh, values, decided, sensor);
   add_place(mesh, lit);
   add_cells(mesh, lit, grid);
   return mesh;
 }
 
 FieldMesh field_of_points(const LitScene& lit, const Sensors& sensors,
-                          const SensorIlluminance& values) {
+                          const SensorIlluminance& values, std::span<const Decided> decided) {
   FieldMesh mesh;
   mesh.points = sensors.position;
   Pick sensor(sensors.size());
   for (std::uint32_t i = 0; i < sensor.size(); ++i) sensor[i] = i;
-  add_light(mesh, values, sensor);
+  add_light(mesh, values, decided, sensor);
   add_place(mesh, lit);
   return mesh;
 }

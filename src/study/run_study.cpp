@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/stopwatch.h"
+#include "illuminance/expected_time.h"
 #include "illuminance/wide_texels.h"
 #include "output/field_writer.h"
 #include "output/sensor_file.h"
@@ -16,6 +20,7 @@
 #include "study/stage_clock.h"
 #include "study/study_report.h"
 #include "study/study_sky.h"
+#include "study/time_limit.h"
 #include "study/view_output.h"
 #include "view/background.h"
 #include "view/eye_inside.h"
@@ -97,7 +102,7 @@ class StudyRun {
             },
             study.calculation.partition, study.calculation.gl, progress_),
         reflection_(lit_, study.calculation.reflection),
-        report_(study, lit_, moment_) {}
+        report_(study_, lit_, moment_) {}
 
   void render(const StudyView& view) {
     ViewRequest request = view_request_of(view, study_, lit_);
@@ -127,6 +132,41 @@ class StudyRun {
     double spacing_m;
   };
 
+  /// Seconds that the study is expected to take at a tolerance.
+  double expected_s(double tolerance_pct, const std::vector<PlacedField>& fields) const {
+    Study study = study_;
+    study.calculation.tolerance_percent = tolerance_pct;
+    const LightMethod method = method_of(study.calculation);
+    SceneReflection reflection(lit_, study.calculation.reflection);
+    double sum = 0.0;
+    const auto add_light = [&](const Sensors& sensors, double share_m) {
+      const IlluminanceOptions options = options_with(study.calculation, reflection, share_m);
+      sum += expected_light_s(sensors, lit_.engines(), lit_.source(), options, method);
+    };
+    for (const PlacedField& field : fields) {
+      add_light(field.grid.sensors, kShare * field.spacing_m);
+    }
+    for (const StudySensors& file : study.sensors) {
+      add_light(lit_.to_local(read_sensor_file(file.file)), 0.0);
+    }
+    if (study.plan) {
+      const GroundPlan ground = ground_plan(lit_, study.plan->spacing_m);
+      add_light(ground.sensors, kShare * ground.grid.cell_m);
+    }
+    for (const StudyView& view : study.views) sum += expected_view_s(view, study, reflection);
+    return sum;
+  }
+
+  /// Chooses the tolerance of the study.
+  /// @return whether the time allows any
+  bool keep_within(double left_s, const std::vector<PlacedField>& fields) {
+    const TimedTolerance chosen = tolerance_within(
+        [&](double tolerance_pct) { return expected_s(tolerance_pct, fields); }, left_s, progress_);
+    study_.calculation.tolerance_percent = chosen.tolerance_pct;
+    report_.note(chosen.why);
+    return chosen.is_reachable;
+  }
+
   /// Sensors of each field, which may not exist: before the long work.
   std::vector<PlacedField> place_sensors() {
     std::vector<PlacedField> placed;
@@ -148,8 +188,9 @@ class StudyRun {
   }
 
   void illuminate_surfaces(const StudyField& field, const PlacedField& placed) {
-    const IlluminanceResult result = light(placed.grid.sensors, kShare * placed.spacing_m);
-    FieldMesh mesh = field_of_grid(lit_, placed.grid, result.values);
+    const IlluminanceResult result =
+        light(placed.grid.sensors, kShare * placed.spacing_m, "'" + field.name + "'");
+    FieldMesh mesh = field_of_grid(lit_, placed.grid, result.values, result.decided);
     mesh.texts.push_back({"time", {report_.time_text()}});
     write_vtp(place(field.name + ".vtp"), mesh);
     report_.add_field(placed.grid, result.values);
@@ -157,15 +198,15 @@ class StudyRun {
 
   void illuminate_sensors(const StudySensors& sensors) {
     const Sensors points = read_sensor_file(sensors.file);
-    const IlluminanceResult result = light(lit_.to_local(points), 0.0);
-    illuminance_table(points.position, points.normal, result.values)
+    const IlluminanceResult result = light(lit_.to_local(points), 0.0, "'" + sensors.name + "'");
+    illuminance_table(points.position, points.normal, result.values, result.decided)
         .write(place(sensors.name + ".csv"));
   }
 
   void map_ground(const StudyPlan& plan) {
     GroundPlan ground = ground_plan(lit_, plan.spacing_m);
     if (ground.sensors.size() == 0) return report_.note("the plan was left out: no open ground");
-    const IlluminanceResult result = light(ground.sensors, kShare * ground.grid.cell_m);
+    const IlluminanceResult result = light(ground.sensors, kShare * ground.grid.cell_m, "the plan");
     ground.fill(result.values);
     const Image8 map = plan_map(report_.plan_of(ground, result.values, plan));
     write_png(place("plan.png"), map,
@@ -180,23 +221,59 @@ class StudyRun {
     if (study_.report) write_whole_file(place("report.html"), report_html(report_.content()));
     const fs::path manifest = place("manifest.json");
     write_manifest(manifest, report_.manifest(outcome_.files, progress_.stages()));
+    outcome_.tolerance_pct = study_.calculation.tolerance_percent;
     outcome_.findings = report_.findings();
     return outcome_;
   }
 
  private:
-  IlluminanceResult light(const Sensors& sensors, double share_reflected_m) {
-    IlluminanceOptions options = illuminance_options_of(study_.calculation);
-    options.share_reflected_m = share_reflected_m;
-    const LightMethod method = method_of(study_.calculation);
-    options.reflection = reflection_.finder(options, method);
-    IlluminanceResult result =
-        illuminate(sensors, lit_.engines(), lit_.source(), options, method, progress_);
+  /// @param what  the sensors, in words
+  IlluminanceResult light(const Sensors& sensors, double share_reflected_m,
+                          const std::string& what) {
+    const IlluminanceOptions options =
+        options_with(study_.calculation, reflection_, share_reflected_m);
+    IlluminanceResult result = illuminate(sensors, lit_.engines(), lit_.source(), options,
+                                          method_of(study_.calculation), progress_);
     reflection_.tell(result.findings);
     add(wide_texels(result.regions, lit_.scene().frame), result.findings);
     outcome_.out_of_tolerance += result.out_of_tolerance;
     report_.add_light(result);
+    if (!study_.calculation.decide.empty()) {
+      report_.note(in_words(study_.calculation.decide, counts_of(result.decided)) + " of " + what);
+    }
     return result;
+  }
+
+  static IlluminanceOptions options_with(const StudyCalculation& calculation,
+                                         SceneReflection& reflection, double share_reflected_m) {
+    IlluminanceOptions options = illuminance_options_of(calculation);
+    if (calculation.decide.empty()) {
+      options.share_reflected_m = share_reflected_m;
+    } else {
+      options.decide = decision_threshold(calculation.decide);
+    }
+    options.reflection = reflection.finder(options, method_of(calculation));
+    return options;
+  }
+
+  /// By radiosity the solution is found for one sensor; looking it up for each pixel is not in it.
+  double expected_view_s(const StudyView& view, const Study& study,
+                         SceneReflection& reflection) const {
+    ViewRequest request = view_request_of(view, study, lit_);
+    const IlluminanceOptions options = options_with(study.calculation, reflection, 0.0);
+    Progress quiet;
+    const Stopwatch watch;
+    if (options.reflection != nullptr) {
+      request.bounces = 0;
+      SensorIlluminance one(1);
+      options.reflection->all({{request.view.target}, {kZenith}}, one, quiet);
+    }
+    const ViewPlan plan = plan_view(request, lit_.engines(), lit_.source(), quiet);
+    double sum = watch.seconds() + plan.reflection_s;
+    for (const PlannedRegion& region : plan.regions) {
+      sum += std::isfinite(region.predicted_s()) ? region.predicted_s() : 0.0;
+    }
+    return sum;
   }
 
   fs::path place(const std::string& name) {
@@ -204,7 +281,7 @@ class StudyRun {
     return outcome_.files.back();
   }
 
-  const Study& study_;
+  Study study_;
   fs::path folder_;
   StageClock progress_;
   StudyMoment moment_;
@@ -221,7 +298,9 @@ void check_study(const Study& study) {
 
 }  // namespace
 
-StudyOutcome run_study(const Study& study, const fs::path& folder, Progress& progress) {
+StudyOutcome run_study(const Study& study, const fs::path& folder, Progress& progress,
+                       std::optional<double> time_limit_s) {
+  const Stopwatch watch;
   check_study(study);
   std::error_code error;
   fs::create_directories(folder, error);
@@ -230,11 +309,14 @@ StudyOutcome run_study(const Study& study, const fs::path& folder, Progress& pro
   }
   StudyRun run(study, folder, progress);  // reads the scene, places the sun, makes the sky
   const auto grids = run.place_sensors();
+  const bool is_in_time = !time_limit_s || run.keep_within(*time_limit_s - watch.seconds(), grids);
   for (const StudyView& view : study.views) run.render(view);
   for (std::size_t i = 0; i < grids.size(); ++i) run.illuminate_surfaces(study.fields[i], grids[i]);
   for (const StudySensors& sensors : study.sensors) run.illuminate_sensors(sensors);
   if (study.plan) run.map_ground(*study.plan);
-  return run.finish();
+  StudyOutcome outcome = run.finish();
+  outcome.is_in_time = is_in_time;
+  return outcome;
 }
 
 }  // namespace tenku

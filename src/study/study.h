@@ -51,7 +51,8 @@ struct StudyCalculation {
   EngineChoice engine = EngineChoice::Auto;
   Detail detail = Detail::Budget;
   Reflection reflection = Reflection::Auto;
-  double mu = 1.0;  ///< of `Detail::Paper`
+  double mu = 1.0;     ///< of `Detail::Paper`
+  std::string decide;  ///< as `--decide`, checked; empty: nothing
   GlPlatform gl = GlPlatform::Auto;
   std::optional<PartitionRequest> partition;  ///< sky elements by hand; else slices
 };

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "core/error.h"
+#include "illuminance/decision.h"
 #include "study/toml_section.h"
 
 namespace tenku {
@@ -31,7 +32,7 @@ const std::vector<KnownTable>& known_tables() {
       {"sky", {"model", "illuminance_lx"}},
       {"calculation",
        {"tolerance_percent", "bounces", "seed", "engine", "reflection", "gl", "lod", "mu",
-        "partition", "elements", "energy_threshold_lx"}},
+        "partition", "elements", "energy_threshold_lx", "decide"}},
       {"view",
        {"name", "eye", "target", "fov_deg", "size", "show", "files", "mirrors", "depth",
         "background", "background_white_cd_m2"}},
@@ -155,6 +156,16 @@ std::optional<PartitionRequest> partition_of(const TomlSection& in) {
   }
 }
 
+std::string decide_of(const TomlSection& in) {
+  const std::string text = in.text("decide").value_or("");
+  try {
+    if (in.has("decide")) decision_threshold(text);
+  } catch (const InputError& error) {
+    in.refuse("decide", error.what());
+  }
+  return text;
+}
+
 StudyCalculation calculation_of(const TomlSection& in) {
   static constexpr std::array<std::string_view, 3> kEngines{"auto", "rays", "shadow-maps"};
   static constexpr std::array<std::string_view, 3> kPlatforms{"auto", "osmesa", "egl"};
@@ -173,6 +184,7 @@ StudyCalculation calculation_of(const TomlSection& in) {
   if (const auto name = in.choice("lod", kDetails)) result.detail = detail_named(*name);
   result.mu = in.number("mu", {0.0, 1e9, true}).value_or(result.mu);
   result.partition = partition_of(in);
+  result.decide = decide_of(in);
   return result;
 }
 

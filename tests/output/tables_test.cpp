@@ -47,6 +47,10 @@ TEST(TableWriter, IlluminanceHasTheContractsColumns) {
   EXPECT_EQ(illuminance_table(position, normal, results).text(),
             "x,y,z,nx,ny,nz,sun_lux,sky_lux,reflected_lux,total_lux,error_lux,sky_view\n"
             "85000.125,446000.5,1.2,0,0,2,100.5,20.25,3,123.75,0.5,0.75\n");
+  const std::vector<Decided> decided{Decided::Yes};
+  EXPECT_EQ(illuminance_table(position, normal, results, decided).text(),
+            "x,y,z,nx,ny,nz,sun_lux,sky_lux,reflected_lux,total_lux,error_lux,sky_view,decided\n"
+            "85000.125,446000.5,1.2,0,0,2,100.5,20.25,3,123.75,0.5,0.75,yes\n");
 }
 
 TEST(SensorFile, ReadsWhatRadianceUsersHave) {

@@ -99,6 +99,7 @@ seed = 42
 engine = "rays"
 partition = "uniform"
 elements = 300
+decide = "300lx"
 [[view]]
 name = "a"
 eye = [-73300, -104030.5, 60]
@@ -152,6 +153,7 @@ sun_path = false
   EXPECT_EQ(study.calculation.tolerance_percent, 0.5);
   EXPECT_EQ(study.calculation.bounces, 0);
   EXPECT_EQ(study.calculation.seed, 42U);
+  EXPECT_EQ(study.calculation.decide, "300lx");
   EXPECT_EQ(study.calculation.engine, EngineChoice::Rays);
   ASSERT_TRUE(study.calculation.partition);
   EXPECT_EQ(study.calculation.partition->method, PartitionMethod::Uniform);
@@ -210,6 +212,7 @@ TEST_F(StudyReader, RefusesValuesOutOfRangeWithTheirLine) {
       {"[calculation]\nseed = -1\n", "6: seed in [calculation] is -1"},
       {"[calculation]\npartition = \"square\"\n", "6: partition 'square' is unknown"},
       {"[calculation]\nelements = 0\n", "6: elements in [calculation] is 0"},
+      {"[calculation]\ndecide = \"300\"\n", "6: '300' is nothing to decide on"},
       {"[calculation]\nenergy_threshold_lx = 0\n", "6: energy_threshold_lx in [calculation] is 0"},
       {"[calculation]\nelements = 9\nenergy_threshold_lx = 1\n", "6: sky elements: give a count"},
       {"[calculation]\nelements = 9\npartition = \"tregenza\"\n", "7: the tregenza and reinhart"},
