@@ -107,7 +107,7 @@ class PanelFinder {
       for (unsigned edge = 0; edge < 3; ++edge) {
         const std::uint32_t t = neighbour(adjacency_, members[k], edge);
         if (t == MeshAdjacency::kNone || !is_free(t)) continue;
-        if (soup_.material[t] != panel.material) continue;
+        if (soup_.object[t] != panel.object || soup_.material[t] != panel.material) continue;
         const Vec3 other = normal_of(soup_, t);
         if (!(length(cross(normal, other)) < kOnePanel && dot(normal, other) > 0.0)) continue;
         is_taken_[t] = true;

@@ -76,12 +76,25 @@ MeshAdjacency::MeshAdjacency(const TriangleSoup& soup) : opposite_(3 * soup.size
   });
   std::vector<EdgeUse> uses;
   for (const auto& rest : left_over) uses.insert(uses.end(), rest.begin(), rest.end());
-  sort_by_mixed_key(uses);
-  for (std::size_t i = 0; i + 1 < uses.size(); ++i) {
-    if (uses[i].key != uses[i + 1].key) continue;
-    join(uses[i].half_edge, uses[i + 1].half_edge);
-    ++i;
+  const auto join_alike = [&] {
+    sort_by_mixed_key(uses);
+    for (std::size_t i = 0; i + 1 < uses.size(); ++i) {
+      if (uses[i].key != uses[i + 1].key) continue;
+      join(uses[i].half_edge, uses[i + 1].half_edge);
+      ++i;
+    }
+  };
+  join_alike();
+  // What is left lies on borders of objects: those of one material may go on in another object.
+  uses.clear();
+  for (std::uint32_t half_edge = 0; half_edge < opposite_.size(); ++half_edge) {
+    if (opposite_[half_edge] != kNone) continue;
+    const std::uint32_t t = half_edge / 3, e = half_edge % 3;
+    const auto& corners = soup.triangles[t];
+    const auto [low, high] = std::minmax(hashes[corners[e]], hashes[corners[(e + 1) % 3]]);
+    uses.push_back({mix_bits(mix_bits(low) ^ high) + soup.material[t], half_edge});
   }
+  join_alike();
 }
 
 }  // namespace tenku

@@ -9,11 +9,12 @@
 
 namespace tenku {
 
-/// Neighbours of triangles across their edges, within one object.
+/// Neighbours of triangles across their edges: of one object, and where an object ends those of the
+/// same material in others, so that a thing may be given in one piece or face by face.
 ///
-/// Edge `e` of a triangle runs from its vertex `e` to its vertex `(e + 1) % 3`. Vertices of one
-/// object at the same place count as one. Where more than two triangles of an object meet in an
-/// edge, they are paired with those nearest in the file.
+/// Edge `e` of a triangle runs from its vertex `e` to its vertex `(e + 1) % 3`. Vertices at the
+/// same place count as one. Where more than two triangles of an object meet in an edge, they are
+/// paired with those nearest in the file.
 ///
 /// Threads  immutable after construction; may be shared.
 class MeshAdjacency {

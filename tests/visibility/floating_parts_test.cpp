@@ -71,6 +71,17 @@ TEST(FloatingParts, ACrownOnItsTrunkIsOne) {
   EXPECT_EQ(seen_from(scene, {0, 0, 0.01}).size(), 1U);
 }
 
+TEST(FloatingParts, ACrownOfFacesThatAreObjectsIsOne) {
+  TestScene scene;
+  scene.level({-50, -50, 50, 50}, 0.0);
+  scene.begin_object();
+  prism(scene, {10, 0, 0}, 0.2, 3.0, 6.0);
+  for (std::size_t t = 0; t < scene.soup.size(); ++t) {
+    scene.soup.object[t] = static_cast<std::uint32_t>(t);
+  }
+  EXPECT_EQ(seen_from(scene, {0, 0, 0.01}).size(), 1U);
+}
+
 TEST(FloatingParts, TheLargestAreTaken) {
   TestScene scene;
   scene.level({-200, -200, 200, 200}, 0.0);
