@@ -19,6 +19,7 @@
 #include "study/camera_path_reader.h"
 #include "study/point_export.h"
 #include "view/eye_inside.h"
+#include "visibility/crossing_faces.h"
 
 namespace tenku {
 namespace {
@@ -132,6 +133,9 @@ int fly(const FlyThroughOptions& options, const CommandContext& context) {
   }
   if (auto inside = eye_inside(path.frames.front().eye, lit.scene(), lit.rays())) {
     result.findings.push_back(std::move(*inside));
+  }
+  if (auto crossing = crossing_faces(lit.scene(), lit.rays())) {
+    result.findings.push_back(std::move(*crossing));
   }
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
   tell(context.options, lit, result, time.count());

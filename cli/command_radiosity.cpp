@@ -22,6 +22,7 @@
 #include "radiosity/interior.h"
 #include "study/radiosity_field.h"
 #include "study/work_plane.h"
+#include "visibility/crossing_faces.h"
 
 namespace tenku {
 namespace {
@@ -242,6 +243,9 @@ class RadiosityRun {
   int close() const {
     std::vector<Finding> findings = lit_.scene().findings;
     findings.insert(findings.end(), mesh_findings_.begin(), mesh_findings_.end());
+    if (auto crossing = crossing_faces(lit_.scene(), lit_.engines().rays())) {
+      findings.push_back(std::move(*crossing));
+    }
     if (auto on_edges = sensors_on_edges(sensors_, lit_.engines().rays())) {
       findings.push_back(std::move(*on_edges));
     }

@@ -35,27 +35,12 @@ std::vector<Cell> cells_that_run() {
   return result;
 }
 
-/// Cells that are known not to hold: skipped, and said in docs/stability.md.
-const std::map<std::string, std::string>& open_cells() {
-  static const std::map<std::string, std::string> kOpen{
-      {"radiosity|intersecting", "0.75 of 200 lx off where the interval is narrower"},
-      {"meshes|intersecting", "0.75 of 200 lx off where the interval is narrower"},
-      {"flythrough|intersecting", "219 of 247 points within 3 %, where 223 are asked for"},
-  };
-  return kOpen;
-}
-
 class StabilityCell : public testing::TestWithParam<Cell> {};
 
 TEST_P(StabilityCell, IsRightOrTold) {
   const Cell& cell = GetParam();
   if (cell.takes_minutes && std::getenv("TENKU_STABILITY_LONG") == nullptr) {
     GTEST_SKIP() << "make stability";
-  }
-  const auto open = open_cells().find(cell.method + "|" + cell.hazard);
-  if (open != open_cells().end()) {
-    tell(cell, {"WRONG", open->second});
-    GTEST_SKIP() << open->second;
   }
   const fs::path folder =
       fs::path(testing::TempDir()) / ("stability." + cell.method + "." + cell.hazard);
