@@ -22,7 +22,8 @@ Every method against every hazard that it can meet. Generated from a run by `mak
 - `not run`: a long cell (`make stability` runs it), or one that this run did not reach.
 
 What to do: where a result comes with `far_from_origin`, cut off the stray object; with `coincident_faces`, keep one of the
-faces; with `unlikely_size`, give `--scale`; with `no_light`, move the sensor out of the solid; with `grazing_sun` or
+faces; with `unlikely_size`, give `--scale`; with `no_light`, move the sensor out of the solid; with `sensor_on_edge`, move it
+off by 0.1 mm; with `faces_cross`, cut the faces where they meet, or make the elements small; with `grazing_sun` or
 `tolerance_not_reached`, read `error_lux`.
 """
 
