@@ -256,8 +256,8 @@ std::vector<std::uint8_t> PixelSharing::doubts(std::span<const std::uint32_t> po
 
 }  // namespace
 
-void share_by_pixels(const ShadingPoints& points, double tolerance, const PixelLightFinder& find,
-                     SensorIlluminance& light) {
+std::vector<std::uint32_t> share_by_pixels(const ShadingPoints& points, double tolerance,
+                                           const PixelLightFinder& find, SensorIlluminance& light) {
   const std::vector<double> direct_error = light.error_lux;
   PixelSharing sharing(points, light);
   std::vector<std::uint8_t> in_doubt(points.sensors.size(), 1);
@@ -277,6 +277,11 @@ void share_by_pixels(const ShadingPoints& points, double tolerance, const PixelL
     light.set_reflected(i, told[i].rgb);
     light.error_lux[i] = std::hypot(direct_error[i], told[i].error_lux, told[i].off_lux);
   }
+  std::vector<std::uint32_t> untold;
+  for (std::uint32_t i = 0; i < in_doubt.size(); ++i) {
+    if (in_doubt[i] != 0) untold.push_back(i);
+  }
+  return untold;
 }
 
 }  // namespace tenku

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "illuminance/sensor.h"
 #include "view/shading_points.h"
@@ -24,7 +25,8 @@ using PixelLightFinder = std::function<SensorIlluminance(std::span<const std::ui
 /// Error    of a point: the mean of those around, and how far they lie off the plane.
 /// Same bits for any number of threads.
 /// @param tolerance  of each value, or of a twentieth of the mean where the value is less
-void share_by_pixels(const ShadingPoints& points, double tolerance, const PixelLightFinder& find,
-                     SensorIlluminance& light);
+/// @return  points that those around still do not tell of, in rising order
+std::vector<std::uint32_t> share_by_pixels(const ShadingPoints& points, double tolerance,
+                                           const PixelLightFinder& find, SensorIlluminance& light);
 
 }  // namespace tenku

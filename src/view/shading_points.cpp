@@ -133,6 +133,25 @@ void append(const RowPoints& rows, const RayVisibility& rays, ShadingPoints& poi
 
 }  // namespace
 
+std::vector<Vec3> places_of_rays(const ShadingPoints& points, std::size_t point,
+                                 const PixelPaths& paths, const RayVisibility& rays) {
+  const auto [x, y] = points.pixel(point);
+  std::vector<Vec3> places;
+  if (!points.is_seen_directly[point]) return places;
+  PixelPath path;
+  for (std::size_t s = 0; s < kRayPlaces.size(); ++s) {
+    path.clear();
+    paths.follow(x, y, s, path);
+    for (const PathPoint& met : path.points) {
+      const bool is_same = met.way == 0 &&
+                           rays.soup().material[met.triangle] == points.material[point] &&
+                           surface_key(rays, met.triangle, met.normal) == points.surface[point];
+      if (is_same) places.push_back(met.position);
+    }
+  }
+  return places;
+}
+
 ShadingPoints find_shading_points(const PerspectiveCamera& camera, const RayVisibility& rays,
                                   const PixelPaths& paths, PointPlace place, Progress& progress) {
   constexpr std::size_t kRows = 4;

@@ -63,6 +63,11 @@ enum class PointPlace {
   Middle  ///< in the middle of them, if that is on the surface and in sight
 };
 
+/// Where the rays of a point met its surface; empty for one that is not seen directly.
+/// @param paths  those that made the points
+std::vector<Vec3> places_of_rays(const ShadingPoints& points, std::size_t point,
+                                 const PixelPaths& paths, const RayVisibility& rays);
+
 /// Four rays a pixel; those on one surface become one point.
 ShadingPoints find_shading_points(const PerspectiveCamera& camera, const RayVisibility& rays,
                                   const PixelPaths& paths, PointPlace place, Progress& progress);

@@ -11,6 +11,7 @@
 #include "illuminance/error_budget.h"
 #include "illuminance/lamp_light.h"
 #include "scene/soup_triangle.h"
+#include "view/edge_pixels.h"
 #include "view/pixel_paths.h"
 #include "view/pixel_sharing.h"
 #include "view/shading_points.h"
@@ -72,20 +73,6 @@ ErrorBudget lamp_budget(const ViewRequest& request, const SensorIlluminance& lig
           0.01 * sum / static_cast<double>(light.size())};
 }
 
-/// Light between surfaces by the finder of the request: what varies slowly is shared, light of
-/// lamps, with its shadows, is found for each point.
-void add_found_reflection(const ViewRequest& request, const ShadingPoints& points,
-                          SensorIlluminance& light, Progress& progress) {
-  const auto find = [&](std::span<const std::uint32_t> chosen) {
-    SensorIlluminance values(chosen.size());
-    for (std::size_t k = 0; k < chosen.size(); ++k) values.sky_lux[k] = light.sky_lux[chosen[k]];
-    request.reflection->without_lamps(sensors_of(points.sensors, chosen), values, progress);
-    return values;
-  };
-  share_by_pixels(points, request.tolerance_pct / 100.0, find, light);
-  request.reflection->lamps(points.sensors, light, progress);
-}
-
 /// The triangles that the points lie on, and how large they would be in the picture.
 SeenPolygons seen_polygons(const ShadingPoints& points, const PerspectiveCamera& camera,
                            const RayVisibility& rays) {
@@ -115,6 +102,102 @@ Backdrop backdrop_of(const DaylightSource& source, const SkyModel* sky,
                      const Background* background) {
   constexpr double kGroundReflectance = 0.2;  // as gensky and most codes take it
   return {sky, Rgb::grey(kGroundReflectance * source.unobstructed_lux() / kPi), background};
+}
+
+/// What a picture asks to be lit, and how.
+struct ViewWork {
+  PerspectiveCamera camera;
+  Backdrop backdrop;
+  MirrorReport mirrors;
+  std::unique_ptr<PixelPaths> paths;
+  ShadingPoints points;
+  SeenPolygons polygons;
+  LightMethod method;
+
+  ViewWork(const ViewRequest& request, const Engines& engines, const DaylightSource& source,
+           const SkyModel* sky, Progress& progress)
+      : camera(request.view),
+        backdrop(backdrop_of(source, sky, request.background)),
+        paths(pixel_paths(camera, engines.rays(), backdrop, request.mirrors, progress, mirrors)),
+        points(find_shading_points(
+            camera, engines.rays(), *paths,
+            request.reflection != nullptr ? PointPlace::Middle : PointPlace::First, progress)),
+        method(request.method) {
+    method.eye = camera.eye();
+    method.picture_tolerance_pct = request.tolerance_pct;
+    if (method.detail != Detail::Paper) return;
+    polygons = seen_polygons(points, camera, engines.rays());
+    method.polygons = &polygons;
+  }
+  ViewWork(const ViewWork&) = delete;
+  ViewWork& operator=(const ViewWork&) = delete;
+};
+
+/// Adds reflected light, and its error.
+void add_reflected(const SensorIlluminance& part, SensorIlluminance& light) {
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    light.set_reflected(i, light.reflected_rgb[i] + part.reflected_rgb[i]);
+    light.error_lux[i] = std::hypot(light.error_lux[i], part.error_lux[i]);
+  }
+}
+
+/// Adds light that ends at shadows.
+void add_lamps(const PixelRays& pixels, double tolerance, const PlaceLightFinder& find,
+               SensorIlluminance& light) {
+  SensorIlluminance lamps(pixels.points.sensors.size());
+  find(pixels.points.sensors, {}, lamps);
+  take_means_of_rays(pixels, points_on_edges(pixels.points, lamps, tolerance), find, lamps);
+  add_reflected(lamps, light);
+}
+
+/// Light between surfaces by the finder of the request: what varies slowly is shared, light of
+/// lamps, with its shadows, is found for each point; both for each ray where a pixel is too coarse.
+void add_found_reflection(const ViewRequest& request, const PixelRays& pixels,
+                          SensorIlluminance& light, Progress& progress) {
+  const double tolerance = request.tolerance_pct / 100.0;
+  const auto find_at = [&](const Sensors& places, std::span<const std::uint32_t> point,
+                           SensorIlluminance& values) {
+    for (std::size_t k = 0; k < point.size(); ++k) values.sky_lux[k] = light.sky_lux[point[k]];
+    request.reflection->without_lamps(places, values, progress);
+  };
+  const auto find = [&](std::span<const std::uint32_t> chosen) {
+    SensorIlluminance values(chosen.size());
+    find_at(sensors_of(pixels.points.sensors, chosen), chosen, values);
+    return values;
+  };
+  SensorIlluminance shared(light.size());
+  const auto untold = share_by_pixels(pixels.points, tolerance, find, shared);
+  take_means_of_rays(pixels, untold, find_at, shared);
+  add_reflected(shared, light);
+  add_lamps(
+      pixels, tolerance,
+      [&](const Sensors& places, auto, SensorIlluminance& values) {
+        request.reflection->lamps(places, values, progress);
+      },
+      light);
+}
+
+/// The same by paths.
+/// @return  rays sent
+std::uint64_t add_reflection_by_paths(const ViewRequest& request, const ViewWork& work,
+                                      const RayVisibility& rays, const DaylightSource& source,
+                                      IlluminanceResult& light, Progress& progress) {
+  IlluminanceOptions options = options_of(request);
+  options.bounces = request.bounces;
+  options.lamps_apart = true;
+  // Some twenty representatives are blended in a pixel.
+  const ReflectedSharing sharing(work.points.sensors, sharing_by_pixels(work.points, work.camera),
+                                 rays);
+  add_shared_reflection(sharing, rays, source, options, progress, light);
+  const ErrorBudget budget = lamp_budget(request, light.values);
+  std::uint64_t sent = 0;
+  add_lamps(
+      {work.points, *work.paths, rays}, request.tolerance_pct / 100.0,
+      [&](const Sensors& places, auto, SensorIlluminance& values) {
+        sent += add_lamp_light(places, rays, budget, request.seed, progress, values);
+      },
+      light.values);
+  return sent;
 }
 
 /// Counts the pixels with points out of tolerance, and says so.
@@ -177,34 +260,6 @@ void tell_cut(const ShadingPoints& points, int depth, std::vector<Finding>& find
   findings.push_back(std::move(finding));
 }
 
-/// What a picture asks to be lit, and how.
-struct ViewWork {
-  PerspectiveCamera camera;
-  Backdrop backdrop;
-  MirrorReport mirrors;
-  ShadingPoints points;
-  SeenPolygons polygons;
-  LightMethod method;
-
-  ViewWork(const ViewRequest& request, const Engines& engines, const DaylightSource& source,
-           const SkyModel* sky, Progress& progress)
-      : camera(request.view),
-        backdrop(backdrop_of(source, sky, request.background)),
-        points(find_shading_points(
-            camera, engines.rays(),
-            *pixel_paths(camera, engines.rays(), backdrop, request.mirrors, progress, mirrors),
-            request.reflection != nullptr ? PointPlace::Middle : PointPlace::First, progress)),
-        method(request.method) {
-    method.eye = camera.eye();
-    method.picture_tolerance_pct = request.tolerance_pct;
-    if (method.detail != Detail::Paper) return;
-    polygons = seen_polygons(points, camera, engines.rays());
-    method.polygons = &polygons;
-  }
-  ViewWork(const ViewWork&) = delete;
-  ViewWork& operator=(const ViewWork&) = delete;
-};
-
 }  // namespace
 
 RenderedView render_view(const ViewRequest& request, const Engines& engines,
@@ -215,17 +270,9 @@ RenderedView render_view(const ViewRequest& request, const Engines& engines,
       illuminate(points.sensors, engines, source, options_of(request), work.method, progress);
   smooth_sky(points, light.values);
   if (request.reflection != nullptr && points.sensors.size() > 0) {
-    add_found_reflection(request, points, light.values, progress);
+    add_found_reflection(request, {points, *work.paths, engines.rays()}, light.values, progress);
   } else if (request.bounces > 0 && points.sensors.size() > 0) {
-    IlluminanceOptions options = options_of(request);
-    options.bounces = request.bounces;
-    options.lamps_apart = true;
-    // Some twenty representatives are blended in a pixel.
-    const ReflectedSharing sharing(points.sensors, sharing_by_pixels(points, work.camera),
-                                   engines.rays());
-    add_shared_reflection(sharing, engines.rays(), source, options, progress, light);
-    light.rays += add_lamp_light(points.sensors, engines.rays(), lamp_budget(request, light.values),
-                                 request.seed, progress, light.values);
+    light.rays += add_reflection_by_paths(request, work, engines.rays(), source, light, progress);
   }
   RenderedView result;
   result.luminance = Image(work.camera.width(), work.camera.height());
