@@ -1,16 +1,14 @@
 #include "radiosity/interior.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <string>
 #include <utility>
 
 #include "core/error.h"
 #include "core/stopwatch.h"
 #include "illuminance/error_budget.h"
-#include "illuminance/reflected_sharing.h"
+#include "radiosity/settled_looks.h"
 
 namespace tenku {
 namespace {
@@ -79,23 +77,12 @@ double light_under_way(const CornerLight& corners, double received_lux) {
   return received_lux > 0.0 ? corners.convergence_lux : 0.0;
 }
 
-/// Sensors that face one way have one number.
-std::vector<std::uint32_t> facings(const Sensors& sensors) {
-  std::map<std::uint64_t, std::uint32_t> number;
-  std::vector<std::uint32_t> of_sensor;
-  for (const Vec3 n : sensors.normal) {
-    const auto next = static_cast<std::uint32_t>(number.size());
-    of_sensor.push_back(number.emplace(facing(n), next).first->second);
-  }
-  return of_sensor;
-}
-
-/// Of twice as many samples each: their error falls with the number to the power -3/4. Half a step
-/// more, since a look that still is not enough is thrown away.
-std::uint8_t steps_finer(double interval_lux, double allowed_lux) {
-  if (!(interval_lux > allowed_lux)) return 0;
-  return static_cast<std::uint8_t>(
-      std::clamp(std::ceil(std::log2(interval_lux / allowed_lux) * 4.0 / 3.0 + 0.5), 1.0, 8.0));
+/// Adds to a sensor what it receives from sides.
+void add_from_sides(const InteriorLight& light, Rgb lux, double half_width_lux, std::size_t i,
+                    SensorIlluminance& values) {
+  values.set_reflected(i, values.reflected_rgb[i] + lux);
+  values.error_lux[i] = std::hypot(values.error_lux[i], half_width_lux) +
+                        light_under_way(light.corners, luminance_of(lux));
 }
 
 bool is_any(Rgb c) { return c.r > 0.0 || c.g > 0.0 || c.b > 0.0; }
@@ -320,16 +307,6 @@ InteriorSensors Interior::look_from(const Sensors& sensors) const {
   return look;
 }
 
-InteriorSensors Interior::look_from_pixels(const Sensors& points) const {
-  InteriorSensors look;
-  look.lamps_apart = true;
-  look.all.assign(points.size(), 1);
-  look.gather = std::make_unique<PointGather>(
-      mesh_, points, gather_options(options_, options_.sensor_resolution / 2));
-  look.lamps = emitters_.at_pixels(points, options_.lift_m);
-  return look;
-}
-
 void Interior::add_lamps(const Sensors& points, const InteriorLight& light,
                          SensorIlluminance& values) const {
   const auto lamps = emitters_.at_pixels(points, options_.lift_m);
@@ -343,47 +320,47 @@ void Interior::add_lamps(const Sensors& points, const InteriorLight& light,
 
 void Interior::add_reflected(InteriorSensors& sensors, const InteriorLight& light,
                              SensorIlluminance& values, Progress& progress) const {
-  const CornerLight& corners = light.corners;
-  const std::vector<Rgb> sent =
-      reflected_part(scaled(surfaces_, light.lamp_scale), corners.radiosity);
-  const std::vector<MeshDoubt> doubts = mesh_doubts(corners);
-  std::vector<PointGather::Looks> looks(values.size());
-  std::vector<std::array<double, PointGather::kLooks>> mesh_part(values.size());
-  std::vector<double> variance;
-  std::vector<std::uint8_t> rough = sensors.all;
-  double floor_lux = 0.0;
-  do {
+  const SurfaceLight lit = scaled(surfaces_, light.lamp_scale);
+  const std::vector<Rgb> sent = reflected_part(lit, light.corners.radiosity);
+  const std::vector<MeshDoubt> doubts = mesh_doubts(light.corners);
+  const auto look = [&](std::span<const std::uint8_t> rough, LooksOfSensors& found) {
     sensors.gather->prepare(rough, progress);
-    sensors.gather->for_rows(rough, [&](std::size_t i, std::size_t look, const FormFactorRow& row) {
-      Rgb sum = sensors.lamps[i].lux;
-      if (surfaces_.any_emits) {
-        sum = sum + emission_left_to_row(surfaces_, emitters_, sensors.lamps[i], row);
+    sensors.gather->for_rows(rough, [&](std::size_t i, std::size_t l, const FormFactorRow& row) {
+      Rgb sum = light.lamp_scale * sensors.lamps[i].lux;
+      if (lit.any_emits) {
+        sum = sum + emission_left_to_row(lit, emitters_, sensors.lamps[i], row);
       }
-      sum = light.lamp_scale * sum;
       for (const FormFactor& f : row) sum = sum + f.value * sent[f.side];
-      looks[i][look] = sum;
-      mesh_part[i][look] = mesh_error_lux(row, doubts);
+      found.lux[i][l] = sum;
+      found.mesh_lux[i][l] = mesh_error_lux(row, doubts);
     });
-    variance = pooled_variance(looks, facings(sensors.gather->points()));
-    if (floor_lux == 0.0) {
-      for (const auto& look : looks) {
-        floor_lux += 0.01 * luminance_of(mean_of(look)) / static_cast<double>(looks.size());
-      }
-    }
-    const ErrorBudget budget(0.5 * options_.tolerance_pct, floor_lux);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const double lux = values.sun_lux[i] + values.sky_lux[i] + luminance_of(mean_of(looks[i]));
-      rough[i] = steps_finer(interval_lux(variance[i], 0.0), budget.allowed_lux(lux));
-    }
-  } while (sensors.gather->look_finer(rough));
+  };
+  const SettledLooks settled = settle_looks(
+      sensors.gather->points(), values, options_.tolerance_pct, look,
+      [&](std::span<std::uint8_t> steps) { return sensors.gather->look_finer(steps); });
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const double mesh_lux = 0.5 * (mesh_part[i][0] + mesh_part[i][1]);
     const double of_lamps = light.lamp_scale * light.lamp_scale * sensors.lamps[i].variance;
-    const double lamps = sensors.lamps_apart ? light.lamp_scale : 0.0;
-    values.set_reflected(i, mean_of(looks[i]) + -lamps * sensors.lamps[i].lux);
-    values.error_lux[i] =
-        std::hypot(values.error_lux[i], interval_lux(variance[i] + of_lamps, mesh_lux)) +
-        light_under_way(corners, values.reflected_lux[i]);
+    const double interval = interval_lux(settled.variance[i] + of_lamps, settled.mesh_lux[i]);
+    add_from_sides(light, settled.lux[i], interval, i, values);
+  }
+}
+
+void Interior::add_reflected_to_pixels(const Sensors& points, const InteriorLight& light,
+                                       SensorIlluminance& values, Progress& progress) {
+  if (!pixels_) {
+    pixels_ = std::make_unique<PixelGather>(
+        mesh_, gather_options(options_, options_.sensor_resolution / 2));
+  }
+  const SurfaceLight lit = scaled(surfaces_, light.lamp_scale);
+  const std::vector<Rgb> sent = reflected_part(lit, light.corners.radiosity);
+  const RadiositySlopes slopes(mesh_, points_, lit, light.points, sent, light.corners.open);
+  const std::vector<MeshDoubt> doubts = mesh_doubts(light.corners);
+  const SettledLooks settled =
+      pixels_->gather(points, {lit, emitters_, light.lamp_scale, sent, slopes, doubts}, values,
+                      options_.tolerance_pct, progress);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    add_from_sides(light, settled.lux[i], interval_lux(settled.variance[i], settled.mesh_lux[i]), i,
+                   values);
   }
 }
 

@@ -20,6 +20,7 @@
 #include "radiosity/former_lights.h"
 #include "radiosity/light_leaks.h"
 #include "radiosity/patch_rows.h"
+#include "radiosity/pixel_gather.h"
 #include "radiosity/point_gather.h"
 #include "radiosity/progressive_refinement.h"
 #include "radiosity/side_points.h"
@@ -66,7 +67,6 @@ struct InteriorLight {
 
 /// Sensors with their form factors, for `Interior::add_reflected`.
 struct InteriorSensors {
-  bool lamps_apart = false;  ///< whether light straight from lamps is left to `add_lamps`
   std::unique_ptr<PointGather> gather;
   std::vector<EmitterLight::Direct> lamps;
   std::vector<std::uint8_t> all;  ///< [sensor], 1
@@ -91,9 +91,6 @@ class Interior {
   /// Sensors that look into the mesh once for many lights.
   /// @param sensors  kept by reference
   InteriorSensors look_from(const Sensors& sensors) const;
-  /// Some points of a picture, whose light is blended at the others: half as many lines, and
-  /// without lamps, whose shadows are too sharp to be blended.
-  InteriorSensors look_from_pixels(const Sensors& points) const;
   /// Adds the light straight from lamps to points of a picture.
   void add_lamps(const Sensors& points, const InteriorLight& light,
                  SensorIlluminance& values) const;
@@ -101,6 +98,12 @@ class Interior {
   /// tolerance look more finely, and stay so.
   void add_reflected(InteriorSensors& sensors, const InteriorLight& light,
                      SensorIlluminance& values, Progress& progress) const;
+
+  /// The same for some points of a picture, whose light is blended at the others, without lamps,
+  /// whose shadows are too sharp to be blended. Half as many lines by rays, which see how what a
+  /// side sends varies over it.
+  void add_reflected_to_pixels(const Sensors& points, const InteriorLight& light,
+                               SensorIlluminance& values, Progress& progress);
 
   const SidePoints& points() const { return points_; }
   const SurfaceLight& surfaces() const { return surfaces_; }
@@ -138,6 +141,7 @@ class Interior {
   std::vector<float> enclosure_;  ///< [point], share of its view that surfaces fill, likewise
   std::vector<std::uint8_t> lamps_known_;  ///< [point], for `lamps_`
   LampsOnMesh lamps_;
+  std::unique_ptr<PixelGather> pixels_;          ///< once a picture has asked
   std::optional<std::vector<LightLeak>> leaks_;  ///< once they have been looked for
   InteriorTimes times_;
 };

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "radiosity/settled_looks.h"
 
 namespace tenku {
 namespace {
@@ -14,19 +15,26 @@ constexpr std::size_t kRowGrain = 64;  // points a task that have them
 constexpr std::size_t kChunk = 8192;   // rows between two looks at the memory
 constexpr std::uint64_t kSecondSeed = 0x9e3779b97f4a7c15U;
 
-/// Samples go with its square: twice as many a level.
-int resolution_at(int first, std::size_t level) {
-  return static_cast<int>(std::lround(first * std::pow(2.0, 0.5 * static_cast<double>(level))));
+}  // namespace
+
+std::size_t PointGather::levels(const PointGatherOptions& options) {
+  std::size_t levels = 1;
+  while (levels < kLevels &&
+         resolution_at(options.form_factors.resolution, levels) <= options.finest) {
+    ++levels;
+  }
+  return levels;
 }
 
-}  // namespace
+int PointGather::first_resolution(const PointGatherOptions& options) {
+  const double share = std::sqrt(static_cast<double>(kLooks));
+  return std::max(2, static_cast<int>(std::lround(options.form_factors.resolution / share)));
+}
 
 PointGather::Methods PointGather::methods(const ElementMesh& mesh,
                                           const PointGatherOptions& options, std::size_t level) {
   FormFactorOptions half = options.form_factors;
-  const double share = std::sqrt(static_cast<double>(kLooks));
-  half.resolution = std::max(2, static_cast<int>(std::lround(half.resolution / share)));
-  half.resolution = resolution_at(half.resolution, level);
+  half.resolution = resolution_at(first_resolution(options), level);
   Methods made;
   for (auto& method : made) {
     method = form_factor_method(options.method, mesh, half);
@@ -50,11 +58,7 @@ PointGather::PointGather(const ElementMesh& mesh, const Sensors& points,
 }
 
 bool PointGather::look_finer(std::span<std::uint8_t> steps) {
-  std::size_t finest = 0;
-  while (finest + 1 < kLevels &&
-         resolution_at(options_.form_factors.resolution, finest + 1) <= options_.finest) {
-    ++finest;
-  }
+  const std::size_t finest = levels(options_) - 1;
   bool any = false;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (level_[i] >= finest) steps[i] = 0;

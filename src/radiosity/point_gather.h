@@ -35,6 +35,11 @@ class PointGather {
   static constexpr std::size_t kLooks = 2;
   using Looks = std::array<Rgb, kLooks>;
 
+  /// How finely points may look, from as many samples as asked to twice as many a level.
+  static std::size_t levels(const PointGatherOptions& options);
+  /// Of each look on the first level.
+  static int first_resolution(const PointGatherOptions& options);
+
   /// @param mesh, points  kept by reference
   /// @throws InputError as `form_factor_method`
   PointGather(const ElementMesh& mesh, const Sensors& points, const PointGatherOptions& options);

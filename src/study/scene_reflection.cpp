@@ -42,8 +42,7 @@ SceneReflection::SceneReflection(const LitScene& lit, Reflection how) : lit_(lit
   finder_.without_lamps = [this](const Sensors& points, SensorIlluminance& values,
                                  Progress& progress) {
     if (!light_) solve(progress);
-    InteriorSensors look = interior_->look_from_pixels(points);
-    interior_->add_reflected(look, *light_, values, progress);
+    interior_->add_reflected_to_pixels(points, *light_, values, progress);
   };
   finder_.lamps = [this](const Sensors& points, SensorIlluminance& values, Progress& progress) {
     if (!light_) solve(progress);

@@ -1,0 +1,116 @@
+#include "radiosity/pixel_gather.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.h"
+#include "core/random.h"
+#include "form_factors/point_view.h"
+#include "illuminance/reflected_light.h"
+
+namespace tenku {
+namespace {
+
+constexpr std::size_t kGrain = 8;
+constexpr double kNear = 1.0;   // times the mean edge of an element
+constexpr int kMostSteps = 16;  // of a path in a crease
+constexpr int kLampRays = 8;    // at most, for one at first, from each place of a path
+
+}  // namespace
+
+PixelGather::PixelGather(const ElementMesh& mesh, const PointGatherOptions& options)
+    : options_(options), mesh_(mesh), outward_(mesh, options.lift_m) {
+  for (std::size_t e = 0; e < mesh.size(); ++e) near_m_.push_back(kNear * mesh.mean_edge_m(e));
+  const int first = PointGather::first_resolution(options);
+  for (std::size_t level = 0; level < PointGather::levels(options); ++level) {
+    Looks looks;
+    for (std::size_t l = 0; l < looks.size(); ++l) {
+      looks[l] = std::make_unique<HemisphereLook>(mesh_, resolution_at(first, level),
+                                                  mix_bits(options.form_factors.seed + l));
+    }
+    looks_.push_back(std::move(looks));
+  }
+}
+
+Rgb PixelGather::sent_at(const MetSide& met, Vec3 from, const SentBySides& sent) const {
+  const bool is_near = length(met.place - from) < near_m_[met.side / 2];
+  if (is_near && !sent.slopes.is_level(met.side)) return sent_by_path(met, sent);
+  return sent.reflected[met.side] + sent.slopes.beyond_mean(met.side, met.place);
+}
+
+/// Reflected radiosity, one draw.
+Rgb PixelGather::sent_by_path(MetSide at, const SentBySides& sent) const {
+  Rgb sum{}, weight = Rgb::grey(1.0);
+  SampleRandom random(key_of(at.place, kZenith, options_.form_factors.seed), 0, 0);
+  for (int step = 0;; ++step) {
+    const std::uint32_t element = at.side / 2;
+    weight = weight * sent.surfaces.reflectance[element];
+    const Vec3 normal = mesh_.mesh.normal(at.side), from = at.place + options_.lift_m * normal;
+    const EmitterLight::Direct lamps = sent.lamps.at(from, normal, kLampRays);
+    sum = sum + weight * (sent.lamp_scale * lamps.lux +
+                          Rgb::grey(sent.slopes.daylight_lux(at.side, at.place)));
+    const double u = random.uniform(), v = random.uniform();
+    const auto next = mesh_.first_met(from, cosine_direction(normal, u, v));
+    if (!next) return sum;
+    weight = next->share * weight;
+    const std::uint32_t met = next->side / 2;
+    if (!lamps.has(sent.lamps.lamp_of(met))) {
+      sum = sum + weight * sent.surfaces.emission_lm_m2[met];
+    }
+    if (step == kMostSteps || !(length(next->place - from) < near_m_[met])) {
+      return sum + weight * (sent.reflected[next->side] +
+                             sent.slopes.beyond_mean(next->side, next->place));
+    }
+    at = *next;
+  }
+}
+
+PixelGather::Found PixelGather::look(const HemisphereLook& look, Vec3 position, Vec3 normal,
+                                     const SentBySides& sent,
+                                     const EmitterLight::Direct& known) const {
+  const std::vector<MetSide> met = look.from_point(position, normal);
+  const FormFactorRow row = row_of(met);
+  Found found{{}, mesh_error_lux(row, sent.doubts)};
+  if (sent.surfaces.any_emits) {
+    found.lux = emission_left_to_row(sent.surfaces, sent.lamps, known, row);
+  }
+  for (const MetSide& one : met) {
+    found.lux = found.lux + one.share * sent_at(one, position, sent);
+  }
+  return found;
+}
+
+SettledLooks PixelGather::gather(const Sensors& points, const SentBySides& sent,
+                                 const SensorIlluminance& values, double tolerance_pct,
+                                 Progress& progress) const {
+  const std::vector<EmitterLight::Direct> known = sent.lamps.at_pixels(points, options_.lift_m);
+  std::vector<std::uint8_t> level(points.size());
+  const auto look_from = [&](std::span<const std::uint8_t> rough, LooksOfSensors& looks) {
+    parallel_for(points.size(), kGrain, [&](IndexRange range) {
+      progress.stop_if_cancelled();
+      for (std::size_t i = range.begin; i < range.end; ++i) {
+        const Vec3 normal = points.normal[i];
+        if (rough[i] == 0 || outward_.faces_nothing(points.position[i], normal)) continue;
+        const Vec3 at = points.position[i] + options_.lift_m * normal;
+        for (std::size_t l = 0; l < PointGather::kLooks; ++l) {
+          const Found found = look(*looks_[level[i]][l], at, normal, sent, known[i]);
+          looks.lux[i][l] = found.lux;
+          looks.mesh_lux[i][l] = found.mesh_lux;
+        }
+      }
+    });
+  };
+  const auto finer = [&](std::span<std::uint8_t> steps) {
+    bool any = false;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      const std::size_t next = std::min<std::size_t>(level[i] + steps[i], looks_.size() - 1);
+      steps[i] = next > level[i] ? 1 : 0;
+      level[i] = static_cast<std::uint8_t>(next);
+      any |= steps[i] != 0;
+    }
+    return any;
+  };
+  return settle_looks(points, values, tolerance_pct, look_from, finer);
+}
+
+}  // namespace tenku
