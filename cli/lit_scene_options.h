@@ -50,8 +50,8 @@ struct CalculationSummary {
   std::string counted;  ///< `sensors` or `pixels`
   std::size_t count = 0, out_of_tolerance = 0;
   double error_mean = 0.0;
-  std::string decide;  ///< what was to be decided; empty: nothing
-  DecisionCounts decided;
+  std::string decide{};  ///< what was to be decided; empty: nothing
+  DecisionCounts decided{};
   std::vector<PlannedRegion> regions;
   std::vector<Finding> findings;  ///< of the calculation; the scene and the sky have their own
 };

@@ -25,8 +25,8 @@ struct ReflectionFinder {
       std::function<void(const Sensors& sensors, SensorIlluminance& values, Progress& progress)>;
   Finder all;
   /// The same in two parts for a picture: what varies slowly, for some of its points; then, for all
-  /// of them, the light straight from lamps is added.
-  Finder without_lamps, lamps;
+  /// of them, the light straight from lamps is added; more carefully where a shadow ends.
+  Finder without_lamps, lamps, lamps_on_edges;
 };
 
 struct IlluminanceOptions {

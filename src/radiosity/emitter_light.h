@@ -34,7 +34,7 @@ class EmitterLight {
  public:
   static constexpr double kFaint = 0.015, kMostView = 0.6, kSettled = 0.001;
   static constexpr std::size_t kMostLamps = 512;
-  static constexpr int kPixelFirst = 64, kPixelMost = 256;
+  static constexpr int kPixelFirst = 64, kPixelMost = 256, kEdgeFirst = 512, kEdgeMost = 1024;
 
   /// @param mesh  kept by reference
   EmitterLight(const ElementMesh& mesh, const SidePoints& points, const SurfaceLight& surfaces,
@@ -56,10 +56,11 @@ class EmitterLight {
 
   /// The same for points of a picture, each beside its neighbours: lamps are not left to rows for
   /// being near, which would show as an edge, and those that give most of the light have more rays
-  /// that must agree before they are believed (one of kPixelFirst may be wrong, unseen).
+  /// that must agree before they are believed (one of kPixelFirst may be wrong, unseen; of
+  /// kEdgeFirst where neighbours tell of a shadow's edge).
   /// @param points  on their surfaces
   /// @return  [point]
-  std::vector<Direct> at_pixels(const Sensors& points, double lift_m) const;
+  std::vector<Direct> at_pixels(const Sensors& points, double lift_m, bool on_edges) const;
 
   bool is_any() const { return !lamp_.empty(); }
   std::size_t size() const { return lamp_.size(); }
@@ -83,7 +84,7 @@ class EmitterLight {
     int first, most;
   };
   double rough_factor(const Lamp& lamp, Vec3 position, Vec3 normal) const;
-  Direct at_pixel(Vec3 position, Vec3 normal) const;
+  Direct at_pixel(Vec3 position, Vec3 normal, Rays rays) const;
   void add_lamp(std::uint32_t lamp, Vec3 position, Vec3 normal, Rays rays, Direct& direct) const;
   double factor(const Lamp& lamp, Vec3 position, Vec3 normal) const;
   double seen(std::uint32_t lamp, Vec3 position, Vec3 normal, int rays) const;

@@ -307,9 +307,9 @@ InteriorSensors Interior::look_from(const Sensors& sensors) const {
   return look;
 }
 
-void Interior::add_lamps(const Sensors& points, const InteriorLight& light,
+void Interior::add_lamps(const Sensors& points, const InteriorLight& light, bool on_edges,
                          SensorIlluminance& values) const {
-  const auto lamps = emitters_.at_pixels(points, options_.lift_m);
+  const auto lamps = emitters_.at_pixels(points, options_.lift_m, on_edges);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Rgb lux = light.lamp_scale * lamps[i].lux;
     values.set_reflected(i, values.reflected_rgb[i] + lux);

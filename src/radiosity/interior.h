@@ -92,7 +92,8 @@ class Interior {
   /// @param sensors  kept by reference
   InteriorSensors look_from(const Sensors& sensors) const;
   /// Adds the light straight from lamps to points of a picture.
-  void add_lamps(const Sensors& points, const InteriorLight& light,
+  /// @param on_edges  neighbours differ: a lamp may be seen by a sliver
+  void add_lamps(const Sensors& points, const InteriorLight& light, bool on_edges,
                  SensorIlluminance& values) const;
   /// Adds the light from sides to direct light on sensors. Those that are not within half of the
   /// tolerance look more finely, and stay so.

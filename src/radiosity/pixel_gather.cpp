@@ -83,7 +83,8 @@ PixelGather::Found PixelGather::look(const HemisphereLook& look, Vec3 position, 
 SettledLooks PixelGather::gather(const Sensors& points, const SentBySides& sent,
                                  const SensorIlluminance& values, double tolerance_pct,
                                  Progress& progress) const {
-  const std::vector<EmitterLight::Direct> known = sent.lamps.at_pixels(points, options_.lift_m);
+  const std::vector<EmitterLight::Direct> known =
+      sent.lamps.at_pixels(points, options_.lift_m, false);
   std::vector<std::uint8_t> level(points.size());
   const auto look_from = [&](std::span<const std::uint8_t> rough, LooksOfSensors& looks) {
     parallel_for(points.size(), kGrain, [&](IndexRange range) {

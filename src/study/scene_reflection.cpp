@@ -44,10 +44,14 @@ SceneReflection::SceneReflection(const LitScene& lit, Reflection how) : lit_(lit
     if (!light_) solve(progress);
     interior_->add_reflected_to_pixels(points, *light_, values, progress);
   };
-  finder_.lamps = [this](const Sensors& points, SensorIlluminance& values, Progress& progress) {
-    if (!light_) solve(progress);
-    interior_->add_lamps(points, *light_, values);
+  const auto lamps = [this](bool on_edges) {
+    return [this, on_edges](const Sensors& points, SensorIlluminance& values, Progress& progress) {
+      if (!light_) solve(progress);
+      interior_->add_lamps(points, *light_, on_edges, values);
+    };
   };
+  finder_.lamps = lamps(false);
+  finder_.lamps_on_edges = lamps(true);
 }
 
 bool SceneReflection::is_by_radiosity(int bounces) const {

@@ -16,7 +16,8 @@ constexpr int kWidest = 8;            // pixels between points at first
 constexpr std::size_t kAround = 12;   // points that a plane is fitted to
 constexpr int kReach = 3;             // cells of the widest kind in which they are looked for
 constexpr double kStiff = 1e-3;       // of the spread: what keeps points on a line from tilting
-constexpr double kDim = 0.05;         // of the mean light: darker values are held to it
+constexpr int kBorderWidth = 2;       // pixels between points along borders, at most
+constexpr double kDim = 0.01;         // of the mean light: darker values are held to it
 constexpr std::uint32_t kNone = ~0U;  // no point
 
 struct Place {
@@ -254,6 +255,21 @@ std::vector<std::uint8_t> PixelSharing::doubts(std::span<const std::uint32_t> po
   return in_doubt;
 }
 
+/// Marks the points at the border of their surface, of which those within tell only by going on.
+void add_borders(const ShadingPoints& points, std::vector<std::uint8_t>& in_doubt) {
+  constexpr int kAll = 9;  // pixels with those around
+  parallel_for(in_doubt.size(), 1024, [&](IndexRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      std::uint32_t pixels = 0, last = kNone;
+      points.for_each_near(i, 1, [&](std::uint32_t k, double) {
+        pixels += points.pixel_index[k] != last;
+        last = points.pixel_index[k];
+      });
+      if (pixels < kAll) in_doubt[i] = 1;
+    }
+  });
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> share_by_pixels(const ShadingPoints& points, double tolerance,
@@ -262,6 +278,7 @@ std::vector<std::uint32_t> share_by_pixels(const ShadingPoints& points, double t
   PixelSharing sharing(points, light);
   std::vector<std::uint8_t> in_doubt(points.sensors.size(), 1);
   for (int width = kWidest; width >= 1; width /= 2) {
+    if (width == kBorderWidth) add_borders(points, in_doubt);
     const std::vector<std::uint32_t> wanted = sharing.wanted(width, in_doubt);
     if (!wanted.empty()) sharing.add(wanted, find(wanted));
     in_doubt = sharing.doubts(wanted, width, tolerance);

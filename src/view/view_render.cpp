@@ -142,6 +142,7 @@ void add_reflected(const SensorIlluminance& part, SensorIlluminance& light) {
 }
 
 /// Adds light that ends at shadows.
+/// @param find  is told the points only on edges
 void add_lamps(const PixelRays& pixels, double tolerance, const PlaceLightFinder& find,
                SensorIlluminance& light) {
   SensorIlluminance lamps(pixels.points.sensors.size());
@@ -171,8 +172,10 @@ void add_found_reflection(const ViewRequest& request, const PixelRays& pixels,
   add_reflected(shared, light);
   add_lamps(
       pixels, tolerance,
-      [&](const Sensors& places, auto, SensorIlluminance& values) {
-        request.reflection->lamps(places, values, progress);
+      [&](const Sensors& places, auto point, SensorIlluminance& values) {
+        const auto& lamps =
+            point.empty() ? request.reflection->lamps : request.reflection->lamps_on_edges;
+        lamps(places, values, progress);
       },
       light);
 }

@@ -2,7 +2,7 @@
 // radiosity.
 //
 //   cornell_picture SCENE_FOLDER WIDTH paths PATHS_A_PIXEL OUT.csv
-//   cornell_picture SCENE_FOLDER WIDTH radiosity TOLERANCE_PCT OUT.csv
+//   cornell_picture SCENE_FOLDER WIDTH radiosity TOLERANCE_PCT OUT.csv [MESH_TOLERANCE_PCT]
 //
 // One line a pixel, row by row from the top left: cd/m2 in red, green and blue, and the standard
 // error of the channel known worst in percent, of paths from 16 scrambles.
@@ -77,10 +77,11 @@ std::vector<PixelLight> by_paths(const LitScene& lit, int width, int paths_a_pix
   return picture;
 }
 
-std::vector<PixelLight> by_radiosity(const LitScene& lit, int width, double tolerance_pct) {
+std::vector<PixelLight> by_radiosity(const LitScene& lit, int width, double tolerance_pct,
+                                     double mesh_tolerance_pct) {
   std::vector<PixelLight> picture;
   const RenderedView view =
-      testing_support::cornell_by_radiosity(lit, width, tolerance_pct, tolerance_pct);
+      testing_support::cornell_by_radiosity(lit, width, tolerance_pct, mesh_tolerance_pct);
   for (const Rgb& pixel : view.luminance.pixels) picture.push_back({pixel, 0.0});
   return picture;
 }
@@ -97,14 +98,16 @@ void write_picture(const std::vector<PixelLight>& picture, const std::string& ou
 }  // namespace tenku
 
 int main(int argc, char** argv) {
-  if (argc != 6) {
-    std::cerr << "cornell_picture SCENE_FOLDER WIDTH paths|radiosity PATHS|TOLERANCE OUT.csv\n";
+  if (argc < 6) {
+    std::cerr << "cornell_picture SCENE_FOLDER WIDTH paths|radiosity PATHS|TOLERANCE OUT.csv "
+                 "[MESH_TOLERANCE]\n";
     return 2;
   }
   const tenku::LitScene lit = tenku::testing_support::cornell_box(argv[1]);
   const int width = std::stoi(argv[2]);
-  tenku::write_picture(std::string(argv[3]) == "paths"
-                           ? tenku::by_paths(lit, width, std::stoi(argv[4]))
-                           : tenku::by_radiosity(lit, width, std::stod(argv[4])),
-                       argv[5]);
+  tenku::write_picture(
+      std::string(argv[3]) == "paths"
+          ? tenku::by_paths(lit, width, std::stoi(argv[4]))
+          : tenku::by_radiosity(lit, width, std::stod(argv[4]), std::stod(argv[argc > 6 ? 6 : 4])),
+      argv[5]);
 }

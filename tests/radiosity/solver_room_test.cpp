@@ -96,7 +96,7 @@ TEST(Radiosity, PixelsInCreasesSeeHowTheLightOfLongElementsVaries) {
     const Sensors points = sensors_of_room(table, table.text(row, "room"));
     SensorIlluminance values(points.size());
     interior.add_reflected_to_pixels(points, light, values, quiet);
-    interior.add_lamps(points, light, values);
+    interior.add_lamps(points, light, false, values);
     EXPECT_LE(worst_error(table, row, values), 0.01);
   }
 }
