@@ -32,12 +32,6 @@ PixelGather::PixelGather(const ElementMesh& mesh, const PointGatherOptions& opti
   }
 }
 
-Rgb PixelGather::sent_at(const MetSide& met, Vec3 from, const SentBySides& sent) const {
-  const bool is_near = length(met.place - from) < near_m_[met.side / 2];
-  if (is_near && !sent.slopes.is_level(met.side)) return sent_by_path(met, sent);
-  return sent.reflected[met.side] + sent.slopes.beyond_mean(met.side, met.place);
-}
-
 /// Reflected radiosity, one draw.
 Rgb PixelGather::sent_by_path(MetSide at, const SentBySides& sent) const {
   Rgb sum{}, weight = Rgb::grey(1.0);
@@ -65,18 +59,32 @@ Rgb PixelGather::sent_by_path(MetSide at, const SentBySides& sent) const {
   }
 }
 
-PixelGather::Found PixelGather::look(const HemisphereLook& look, Vec3 position, Vec3 normal,
-                                     const SentBySides& sent,
-                                     const EmitterLight::Direct& known) const {
-  const std::vector<MetSide> met = look.from_point(position, normal);
+PixelGather::Found PixelGather::look(const HemisphereLook& look, const Point& point,
+                                     const SentBySides& sent) const {
+  const std::vector<MetSide> met = look.from_point(point.position, point.normal);
   const FormFactorRow row = row_of(met);
   Found found{{}, mesh_error_lux(row, sent.doubts)};
   if (sent.surfaces.any_emits) {
-    found.lux = emission_left_to_row(sent.surfaces, sent.lamps, known, row);
+    found.lux = emission_left_to_row(sent.surfaces, sent.lamps, point.lamps, row);
   }
+  Rgb far{}, near{};
+  const auto is_near = [&](const MetSide& one) {
+    return length(one.place - point.position) < near_m_[one.side / 2] &&
+           !sent.slopes.is_level(one.side);
+  };
   for (const MetSide& one : met) {
-    found.lux = found.lux + one.share * sent_at(one, position, sent);
+    const Rgb here = sent.reflected[one.side] + sent.slopes.beyond_mean(one.side, one.place);
+    Rgb& sum = is_near(one) ? near : far;
+    sum = sum + one.share * here;
   }
+  const double lux = point.direct_lux + luminance_of(found.lux + far + near);
+  if (found.mesh_lux > point.tolerance * lux && luminance_of(near) > 0.0) {
+    near = {};
+    for (const MetSide& one : met) {
+      if (is_near(one)) near = near + one.share * sent_by_path(one, sent);
+    }
+  }
+  found.lux = found.lux + far + near;
   return found;
 }
 
@@ -92,9 +100,10 @@ SettledLooks PixelGather::gather(const Sensors& points, const SentBySides& sent,
       for (std::size_t i = range.begin; i < range.end; ++i) {
         const Vec3 normal = points.normal[i];
         if (rough[i] == 0 || outward_.faces_nothing(points.position[i], normal)) continue;
-        const Vec3 at = points.position[i] + options_.lift_m * normal;
+        const Point point{points.position[i] + options_.lift_m * normal, normal, known[i],
+                          values.sun_lux[i] + values.sky_lux[i], tolerance_pct / 100.0};
         for (std::size_t l = 0; l < PointGather::kLooks; ++l) {
-          const Found found = look(*looks_[level[i]][l], at, normal, sent, known[i]);
+          const Found found = look(*looks_[level[i]][l], point, sent);
           looks.lux[i][l] = found.lux;
           looks.mesh_lux[i][l] = found.mesh_lux;
         }

@@ -33,7 +33,8 @@ struct SentBySides {
 /// Rays from points into a mesh. Nothing is kept: a picture is lit once.
 ///
 /// Where a ray meets a side nearer than its element is long, as in creases, the light there is not
-/// that between the corners: from such places a path goes on until it comes far enough.
+/// that between the corners: from such places a path goes on until it comes far enough, if the
+/// doubt of the mesh is beyond the tolerance.
 class PixelGather {
  public:
   /// @param mesh  kept by reference
@@ -53,10 +54,15 @@ class PixelGather {
     double mesh_lux;
   };
 
-  Rgb sent_at(const MetSide& met, Vec3 from, const SentBySides& sent) const;
+  /// One that looks, lifted off its surface.
+  struct Point {
+    Vec3 position, normal;
+    const EmitterLight::Direct& lamps;
+    double direct_lux, tolerance;
+  };
+
   Rgb sent_by_path(MetSide at, const SentBySides& sent) const;
-  Found look(const HemisphereLook& look, Vec3 position, Vec3 normal, const SentBySides& sent,
-             const EmitterLight::Direct& known) const;
+  Found look(const HemisphereLook& look, const Point& point, const SentBySides& sent) const;
 
   PointGatherOptions options_;
   MeshRays mesh_;
