@@ -12,6 +12,7 @@
 #include "illuminance/lamp_light.h"
 #include "scene/soup_triangle.h"
 #include "view/edge_pixels.h"
+#include "view/picture_sky.h"
 #include "view/pixel_paths.h"
 #include "view/pixel_sharing.h"
 #include "view/shading_points.h"
@@ -21,21 +22,6 @@ namespace {
 
 constexpr double kBlock = 8.0;       // pixels a side that share reflected light on one surface
 constexpr double kFarBlock_m = 5.0;  // width of a block beyond which surfaces share
-
-/// Averages of skylight over the pixels around, on the same surface.
-void smooth_sky(const ShadingPoints& points, SensorIlluminance& light) {
-  const std::vector<double> sky = light.sky_lux;
-  parallel_for(points.sensors.size(), 1024, [&](IndexRange range) {
-    for (std::size_t i = range.begin; i < range.end; ++i) {
-      double sum = 0.0, weight = 0.0;
-      points.for_each_near(i, 1, [&](std::size_t k, double w) {
-        sum += w * sky[k];
-        weight += w;
-      });
-      light.sky_lux[i] = sum / weight;
-    }
-  });
-}
 
 /// Blocks of pixels are the cells in which the points of one surface share reflected light.
 SharingLayout sharing_by_pixels(const ShadingPoints& points, const PerspectiveCamera& camera) {
@@ -63,6 +49,30 @@ IlluminanceOptions options_of(const ViewRequest& request) {
   options.first_slices = 8;    // averaged with the pixels around
   options.seed = request.seed;
   return options;
+}
+
+/// Finds skylight anew where it scatters too much for its mean over the pixels around: each point
+/// by itself, from more slices each time, of which narrow windows are seen by few. Where many still
+/// scatter then, it is not by chance.
+void settle_sky(const ViewRequest& request, const ShadingPoints& points, const RayVisibility& rays,
+                const DaylightSource& source, IlluminanceResult& light, Progress& progress) {
+  if (source.partition) return;  // by hand
+  constexpr int kFirst = 64, kMost = 1024;
+  IlluminanceOptions options = options_of(request);
+  options.tolerance_pct = std::min(100.0, ErrorBudget::kErrorsInTolerance * request.tolerance_pct);
+  for (options.first_slices = kFirst; options.first_slices <= kMost; options.first_slices *= 4) {
+    const auto scattered = scattered_sky(points, light.values, request.tolerance_pct / 100.0);
+    const bool is_by_chance =
+        options.first_slices == kFirst || 8 * scattered.size() < points.sensors.size();
+    if (scattered.empty() || !is_by_chance) return;
+    const IlluminanceResult finer =
+        illuminate(sensors_of(points.sensors, scattered), rays, source, options, progress);
+    for (std::size_t k = 0; k < scattered.size(); ++k) {
+      light.values.sky_lux[scattered[k]] = finer.values.sky_lux[k];
+      light.values.error_lux[scattered[k]] = finer.values.error_lux[k];
+    }
+    light.rays += finer.rays;
+  }
 }
 
 /// A pixel's standard error is held to the tolerance; darker than a hundredth of the mean is black.
@@ -271,6 +281,9 @@ RenderedView render_view(const ViewRequest& request, const Engines& engines,
   const ShadingPoints& points = work.points;
   IlluminanceResult light =
       illuminate(points.sensors, engines, source, options_of(request), work.method, progress);
+  if (request.reflection != nullptr) {
+    settle_sky(request, points, engines.rays(), source, light, progress);
+  }
   smooth_sky(points, light.values);
   if (request.reflection != nullptr && points.sensors.size() > 0) {
     add_found_reflection(request, {points, *work.paths, engines.rays()}, light.values, progress);
