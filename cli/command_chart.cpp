@@ -8,10 +8,12 @@
 #include "cli/command.h"
 #include "cli/lit_scene_options.h"
 #include "cli/sensor_options.h"
+#include "cli/view_options.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "study/chart_files.h"
 #include "study/chart_settings.h"
+#include "study/scene_reflection.h"
 #include "study/time_limit.h"
 
 namespace tenku {
@@ -22,9 +24,24 @@ constexpr double kUsualSensors = 400.0;
 struct ChartOptions {
   LitSceneOptions lit;
   SensorOptions sensors;
+  ViewOptions view;
   std::string budget = "120s";
   std::vector<std::string> stages{"all"};
 };
+
+/// Without those that see neither sky nor sun, as on the ground inside of buildings.
+Sensors outdoors(const LitScene& lit, const Sensors& all, Progress& progress) {
+  IlluminanceOptions how;
+  how.tolerance_pct = 20.0;
+  how.bounces = 0;
+  const SensorIlluminance light =
+      illuminate(all, lit.rays(), daylight_of(lit.sky()), how, progress).values;
+  std::vector<std::uint32_t> seeing;
+  for (std::uint32_t s = 0; s < all.size(); ++s) {
+    if (light.sun_lux[s] > 0.0 || light.sky_lux[s] > 0.0) seeing.push_back(s);
+  }
+  return seeing.empty() ? all : sensors_of(all, seeing);
+}
 
 /// Some hundred on what there is first of ground, roofs and walls.
 Sensors usual_sensors(const LitScene& lit, std::string& told) {
@@ -90,6 +107,7 @@ void tell(const ChartResult& result, const CommonOptions& common,
 int chart(const ChartOptions& options, const CommandContext& context) {
   const double budget_s = seconds_named(options.budget, "a budget");
   check_chart_stages(options.stages);
+  check_view_options(options.view);
   const std::filesystem::path folder = options.lit.out;
   if (options.lit.out == "-") throw InputError("a chart needs a folder: --out DIR");
   if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder)) {
@@ -108,8 +126,12 @@ int chart(const ChartOptions& options, const CommandContext& context) {
     story.sensors = fmt::format("{} sensors", sensors.size());
   } else {
     sensors = usual_sensors(lit, story.sensors);
+    const bool is_city = lit.sky().model != nullptr && !is_room(lit);
+    if (is_city) sensors = outdoors(lit, sensors, context.progress);
   }
-  const ChartSettings settings(lit, sensors, options.stages, context.options.seed);
+  const ChartView view{view_request(options.view, options.lit, lit, context.options).view,
+                       options.lit.bounces};
+  const ChartSettings settings(lit, sensors, view, options.stages, context.options.seed);
   const double floor_lux = 0.001 * lit.source().unobstructed_lux();
   const ChartResult result = measure_chart(settings.settings(), settings.references(), budget_s,
                                            floor_lux, context.options.seed, context.progress);
@@ -126,11 +148,12 @@ CommandBody make_chart_command(CLI::App& app) {
   add_site_options(app, options->lit.site);
   add_sky_options(app, options->lit.sky);
   add_sensor_options(app, options->sensors);
+  add_camera_options(app, options->view, "256x256");
   app.add_option("--gl", options->lit.gl,
                  "what draws shadow maps: auto, osmesa or egl (default auto)");
   app.add_option("--stage", options->stages,
-                 "sky, visibility, lod, form-factors, mesh, several with commas, or all (default "
-                 "all)")
+                 "sky, visibility, lod, reflections, form-factors, mesh, picture, mirrors, "
+                 "fly-through, several with commas, or all (default all)")
       ->delimiter(',');
   app.add_option("--budget", options->budget, "time that it may take, 120s or 2m (default 120s)");
   app.add_option("--out", options->lit.out, "folder to write into")->required();

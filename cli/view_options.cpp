@@ -54,11 +54,16 @@ void check_view_options(const ViewOptions& options) {
   }
 }
 
-void add_view_options(CLI::App& app, ViewOptions& options) {
+void add_camera_options(CLI::App& app, ViewOptions& options, const std::string& size) {
+  options.size = size;
   app.add_option("--eye", options.eye, "where the camera is: E,N,U in the scene's coordinates");
   app.add_option("--target", options.target, "what it looks at: E,N,U");
   app.add_option("--fov", options.fov_deg, "horizontal field of view, degrees (default 60)");
-  app.add_option("--size", options.size, "pixels, WIDTHxHEIGHT (default 512x512)");
+  app.add_option("--size", options.size, fmt::format("pixels, WIDTHxHEIGHT (default {})", size));
+}
+
+void add_view_options(CLI::App& app, ViewOptions& options) {
+  add_camera_options(app, options, options.size);
   app.add_option("--mirrors", options.mirrors,
                  "how mirrors are followed: auto, beams, rays or off (default auto)");
   app.add_option("--depth", options.depth, "mirrors in a row that are followed (default 4)");

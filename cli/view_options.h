@@ -21,6 +21,10 @@ struct ViewOptions {
 
 void add_view_options(CLI::App& app, ViewOptions& options);
 
+/// Those that say what is seen alone.
+/// @param size  of the picture, where none is given
+void add_camera_options(CLI::App& app, ViewOptions& options, const std::string& size);
+
 /// Finds before the scene is read what is wrong with the view.
 /// @throws InputError
 void check_view_options(const ViewOptions& options);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "core/atomic_file.h"
@@ -24,34 +25,53 @@ void write_table(const std::filesystem::path& path, const ChartResult& result, c
   CsvTable table(kChartHeader);
   const auto yes = [](bool is) { return is ? "yes" : "no"; };
   for (const ChartPoint& p : result.points) {
-    const Vec3 worst = lit.scene().frame.to_file(sensors.position[p.error.worst_sensor]);
+    const bool is_picture = result.references[p.reference].is_picture;
     table.add(p.stage).add(p.method).add(p.setting);
     table.add(p.time_s).add(p.time_spread_s).add(p.memory_mb);
-    table.add(p.error.rms).add(p.error.p95).add(p.error.worst).add(p.predicted_error);
+    table.add(p.error.rms).add(p.error.p95).add(p.error.worst);
+    if (std::isfinite(p.predicted_error)) {
+      table.add(p.predicted_error);
+    } else {
+      table.add("");
+    }
     table.add(yes(p.is_on_front)).add(yes(p.is_knee));
     table.add(yes(p.is_under_floor)).add(yes(p.is_order_unsure));
     table.add(static_cast<double>(p.repeats));
-    table.add(p.error.rms_lux).add(p.error.p95_lux).add(p.error.worst_lux);
-    table.add(worst.x).add(worst.y).add(worst.z);
+    if (is_picture) {
+      for (int k = 0; k < 6; ++k) table.add("");
+    } else {
+      const Vec3 worst = lit.scene().frame.to_file(sensors.position[p.error.worst_sensor]);
+      table.add(p.error.rms_lux).add(p.error.p95_lux).add(p.error.worst_lux);
+      table.add(worst.x).add(worst.y).add(worst.z);
+    }
     table.add(result.references[p.reference].floor);
+    if (is_picture) {
+      table.add(p.error.mean_255).add(p.error.similarity);
+    } else {
+      table.add("").add("");
+    }
     table.end_row();
   }
   table.write(path);
 }
 
-std::string label_of(const ChartPoint& p) {
+std::string label_of(const ChartPoint& p, bool is_picture) {
   std::string label = fmt::format(
       "{}, {}: {} (spread {}, {} runs), error {} RMS, {} for 95 %, {} worst", p.method, p.setting,
       seconds_text(p.time_s), seconds_text(p.time_spread_s), p.repeats, percent_text(p.error.rms),
       percent_text(p.error.p95), percent_text(p.error.worst));
+  if (is_picture) {
+    label += fmt::format("; of white: mean difference {} of 255, similarity {:.3f}",
+                         rounded_text(p.error.mean_255), p.error.similarity);
+  }
   if (p.is_under_floor) label += "; as good as the reference, not ranked";
   if (p.is_order_unsure) label += "; times overlap with a neighbour's on the front";
   return label;
 }
 
-SpeedMark mark_of(const ChartPoint& p, const std::string& line) {
-  return {line,        label_of(p),   p.time_s,  p.time_spread_s,
-          p.error.rms, p.is_on_front, p.is_knee, p.is_under_floor};
+SpeedMark mark_of(const ChartPoint& p, const std::string& line, bool is_picture) {
+  return {line,        label_of(p, is_picture), p.time_s,  p.time_spread_s,
+          p.error.rms, p.is_on_front,           p.is_knee, p.is_under_floor};
 }
 
 /// One of each stage, and one of all that share a reference.
@@ -67,8 +87,8 @@ std::vector<SpeedChart> charts_of(const ChartResult& result) {
       if (stages.empty() || stages.back().title != "Stage: " + p.stage) {
         stages.push_back({.title = "Stage: " + p.stage, .marks = {}, .floor_pct = whole.floor_pct});
       }
-      stages.back().marks.push_back(mark_of(p, p.method));
-      SpeedMark here = mark_of(p, p.stage + ": " + p.method);
+      stages.back().marks.push_back(mark_of(p, p.method, result.references[r].is_picture));
+      SpeedMark here = mark_of(p, p.stage + ": " + p.method, result.references[r].is_picture);
       here.is_on_front = here.is_knee = false;
       whole.marks.push_back(std::move(here));
     }
@@ -94,7 +114,10 @@ SpeedTable recommendations(const ChartResult& result, std::size_t reference) {
   SpeedTable table;
   table.title = "What to set: " + result.references[reference].name;
   table.introduction =
-      "The quickest setting with which 95 % of the sensors are within an error of their values.";
+      result.references[reference].is_picture
+          ? "The quickest setting with which 95 % of the pixels are within an error, of white."
+          : "The quickest setting with which 95 % of the sensors are within an error of their "
+            "values.";
   table.header = {"error asked for", "setting", "time", "95 % within", "worst"};
   table.left_aligned = 2;
   for (const double error : kChartErrors) {
@@ -116,20 +139,24 @@ SpeedTable all_points(const ChartResult& result) {
   SpeedTable table;
   table.title = "All points";
   table.introduction =
-      "Errors are relative to each sensor's value (at least 0.1 % of open light). Foretold: root "
-      "mean "
-      "square of the intervals that the calculation gives itself.";
-  table.header = {"stage",  "method",  "setting",  "time, s",     "spread, s", "memory, MiB",
-                  "RMS, %", "95 %, %", "worst, %", "foretold, %", "remark"};
+      "Errors are relative to each sensor's value (at least 0.1 % of open light), of pictures "
+      "to white. Foretold: root mean square of the intervals that the calculation gives itself.";
+  table.header = {"stage",       "method",     "setting", "time, s",  "spread, s",
+                  "memory, MiB", "RMS, %",     "95 %, %", "worst, %", "foretold, %",
+                  "of 255",      "similarity", "remark"};
   table.left_aligned = 3;
   for (const ChartPoint& p : result.points) {
+    const bool is_picture = result.references[p.reference].is_picture;
     std::string remark = p.is_knee ? "knee" : p.is_on_front ? "front" : "";
     if (p.is_under_floor) remark = "as good as the reference";
     if (p.is_order_unsure) remark += ", order unsure";
     table.rows.push_back({p.stage, p.method, p.setting, rounded_text(p.time_s),
                           rounded_text(p.time_spread_s), rounded_text(p.memory_mb),
                           rounded_text(p.error.rms), rounded_text(p.error.p95),
-                          rounded_text(p.error.worst), rounded_text(p.predicted_error), remark});
+                          rounded_text(p.error.worst),
+                          std::isfinite(p.predicted_error) ? rounded_text(p.predicted_error) : "",
+                          is_picture ? rounded_text(p.error.mean_255) : "",
+                          is_picture ? fmt::format("{:.3f}", p.error.similarity) : "", remark});
   }
   return table;
 }
@@ -140,7 +167,8 @@ const ChartPoint* to_recommend(const ChartResult& result) {
   for (const double error : kChartErrors) {
     const ChartPoint* here = nullptr;
     for (const ChartPoint& p : result.points) {
-      if (p.study.empty() || p.error.p95 > error) continue;
+      const bool is_of_sensors = !result.references[p.reference].is_picture;
+      if (p.study.empty() || !is_of_sensors || p.error.p95 > error) continue;
       if (here == nullptr || p.time_s < here->time_s) here = &p;
     }
     if (here != nullptr) best = here;
@@ -167,7 +195,7 @@ std::string fragment_of(const ChartResult& result) {
 std::vector<ErrorPlan> plans_of(const ChartResult& result, const Sensors& sensors) {
   std::vector<ErrorPlan> plans;
   for (const ChartPoint& p : result.points) {
-    if (!p.is_knee) continue;
+    if (!p.is_knee || result.references[p.reference].is_picture) continue;
     ErrorPlan plan;
     plan.caption = fmt::format(
         "{}, {}, {}: orange too bright, blue too dark, full colour at {}; the ring is the worst of "

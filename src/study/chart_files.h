@@ -23,7 +23,7 @@ struct ChartStory {
 inline constexpr std::string_view kChartHeader =
     "stage,method,setting,time_s,time_spread_s,memory_mb,rms_error,p95_error,max_error,"
     "predicted_error,on_front,is_knee,under_floor,order_unsure,repeats,rms_lux,p95_lux,max_lux,"
-    "worst_x,worst_y,worst_z,reference_floor";
+    "worst_x,worst_y,worst_z,reference_floor,mean_255,similarity";
 
 /// The errors for which a setting is told, percent.
 inline constexpr double kChartErrors[] = {10.0, 5.0, 2.0, 1.0, 0.5};

@@ -13,19 +13,13 @@
 #include "meshing/mesh_surfaces.h"
 #include "radiosity/interior.h"
 #include "radiosity/mesh_loop.h"
+#include "study/chart_reflections.h"
 #include "study/scene_reflection.h"
 
 namespace tenku {
 namespace {
 
 constexpr double kDirectOfInteriors = 1.0;  // percent, tolerance of the direct light in rooms
-
-SensorValues values_of(const SensorIlluminance& found) {
-  SensorValues values;
-  values.error_lux = found.error_lux;
-  for (std::size_t s = 0; s < found.size(); ++s) values.lux.push_back(found.total_lux(s));
-  return values;
-}
 
 DaylightSource source_with(const LitScene& lit, const std::optional<PartitionRequest>& partition) {
   DaylightSource source = daylight_of(lit.sky());
@@ -88,7 +82,8 @@ struct ChartSettings::DirectLight {
 };
 
 std::vector<std::string> chart_stages() {
-  return {"sky", "visibility", "lod", "form-factors", "mesh"};
+  return {"sky",  "visibility", "lod",     "reflections", "form-factors",
+          "mesh", "picture",    "mirrors", "fly-through"};
 }
 
 void check_chart_stages(const std::vector<std::string>& stages) {
@@ -100,7 +95,7 @@ void check_chart_stages(const std::vector<std::string>& stages) {
   }
 }
 
-ChartSettings::ChartSettings(const LitScene& lit, const Sensors& sensors,
+ChartSettings::ChartSettings(const LitScene& lit, const Sensors& sensors, const ChartView& view,
                              std::vector<std::string> stages, std::uint64_t seed)
     : lit_(lit),
       sensors_(sensors),
@@ -108,20 +103,29 @@ ChartSettings::ChartSettings(const LitScene& lit, const Sensors& sensors,
       seed_(seed),
       direct_(std::make_shared<DirectLight>()) {
   check_chart_stages(stages_);
-  const bool is_all = std::find(stages_.begin(), stages_.end(), "all") != stages_.end();
-  if (is_all) {
-    stages_ = {"sky", "visibility", "lod"};
+  if (wants("all")) {
+    stages_ = {"sky", "visibility", "lod", "reflections", "picture", "fly-through"};
     if (is_room(lit)) stages_.insert(stages_.end(), {"form-factors", "mesh"});
+    if (has_mirrors(lit)) stages_.push_back("mirrors");
+  }
+  if (wants("mirrors") && !has_mirrors(lit)) {
+    throw InputError("--stage mirrors: the scene has none to compare");
   }
   const bool is_day = lit.sky().model != nullptr;
-  const bool is_direct = is_day && (wants("sky") || wants("visibility") || wants("lod"));
-  if (is_direct) add_direct_reference();
+  if (is_day && (wants("sky") || wants("visibility") || wants("lod"))) add_direct_reference();
   if (is_day && wants("sky")) add_sky();
   if (is_day && wants("visibility")) add_visibility();
   if (is_day && wants("lod")) add_detail();
+  if (wants("reflections")) add_reflection_stage(lit, sensors, seed, settings_, references_);
   if (wants("form-factors") || wants("mesh")) add_interior_reference();
   if (wants("form-factors")) add_form_factors();
   if (wants("mesh")) add_meshes();
+  const std::pair<const char*, PictureStage*> pictures[] = {{"picture", add_picture_stage},
+                                                            {"mirrors", add_mirror_stage},
+                                                            {"fly-through", add_fly_through_stage}};
+  for (const auto& [name, add] : pictures) {
+    if (wants(name)) add(lit, view, seed, settings_, references_);
+  }
   if (settings_.empty()) throw InputError("without a sky there is nothing to compare here");
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "illuminance/illuminate.h"
+#include "study/chart_pictures.h"
 #include "study/lit_scene.h"
 #include "study/speed_accuracy.h"
 
@@ -21,15 +22,16 @@ void check_chart_stages(const std::vector<std::string>& stages);
 /// Settings and references for some stages of a scene, and what of it they share.
 ///
 /// `sky`, `visibility` and `lod` find direct light on the sensors and are held against slices;
-/// `form-factors` and `mesh` find light after all reflections, and are held against a finer mesh.
+/// `reflections` all light, held against paths; `form-factors` and `mesh` light after all
+/// reflections, held against a finer mesh; the others make pictures (`chart_pictures.h`).
 class ChartSettings {
  public:
   /// @param lit      kept by reference, like `sensors`
-  /// @param stages   of `chart_stages`, or `all`: the last two then only in rooms (up to 60 m and
-  ///                 20,000 triangles)
+  /// @param stages   of `chart_stages`, or `all`: `form-factors` and `mesh` then only in rooms (up
+  ///                 to 60 m and 20,000 triangles), `mirrors` where there are any
   /// @throws InputError  for a stage that is not known, or none that this scene and sky allow
-  ChartSettings(const LitScene& lit, const Sensors& sensors, std::vector<std::string> stages,
-                std::uint64_t seed);
+  ChartSettings(const LitScene& lit, const Sensors& sensors, const ChartView& view,
+                std::vector<std::string> stages, std::uint64_t seed);
   ~ChartSettings();
   ChartSettings(const ChartSettings&) = delete;
   ChartSettings& operator=(const ChartSettings&) = delete;

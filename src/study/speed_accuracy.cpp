@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 
 #include "core/error.h"
 #include "core/memory_use.h"
 #include "core/stopwatch.h"
+#include "view/picture_difference.h"
 
 namespace tenku {
 namespace {
@@ -29,6 +31,17 @@ double quantile(std::vector<double> values, double share) {
 double root_mean_square(const std::vector<double>& values) {
   const double sum = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
   return values.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+constexpr double kWhite = 255.0;
+
+Image8 picture_of(const std::vector<double>& codes, int width) {
+  Image8 picture(width, static_cast<int>(codes.size() / 3) / width);
+  const auto code = [&](std::size_t k) { return static_cast<std::uint8_t>(std::lround(codes[k])); };
+  for (std::size_t p = 0; p < picture.pixels.size(); ++p) {
+    picture.pixels[p] = {code(3 * p), code(3 * p + 1), code(3 * p + 2)};
+  }
+  return picture;
 }
 
 /// Stops what goes on beyond the time.
@@ -111,7 +124,8 @@ class ChartRun {
     const Stopwatch watch;
     const SensorValues second = reference.run(found.tolerance_pct, seed_ + 2, quiet);
     found.seconds = spent + watch.seconds();
-    found.difference = error_numbers(first.lux, second.lux, floor_lux_);
+    found.is_picture = first.is_picture();
+    found.difference = error_numbers(first, second.lux, floor_lux_);
     found.floor = 0.5 * found.difference.rms;
     for (std::size_t k = 0; k < first.lux.size(); ++k) {
       found.truth.push_back(0.5 * (first.lux[k] + second.lux[k]));
@@ -183,14 +197,15 @@ class ChartRun {
 
   void take_errors(const SensorValues& values, ChartPoint& point) const {
     const ReferenceResult& reference = result_.references[point.reference];
-    point.error = error_numbers(values.lux, reference.truth, floor_lux_);
+    point.error = error_numbers(values, reference.truth, floor_lux_);
     std::vector<double> intervals;
     for (std::size_t k = 0; k < values.lux.size(); ++k) {
-      const double whole = std::max(reference.truth[k], floor_lux_);
-      intervals.push_back(100.0 * values.error_lux[k] / whole);
+      const double whole = values.is_picture() ? kWhite : std::max(reference.truth[k], floor_lux_);
+      if (!values.error_lux.empty()) intervals.push_back(100.0 * values.error_lux[k] / whole);
       point.sensor_error_pct.push_back(100.0 * (values.lux[k] - reference.truth[k]) / whole);
     }
-    point.predicted_error = root_mean_square(intervals);
+    point.predicted_error =
+        intervals.empty() ? std::numeric_limits<double>::quiet_NaN() : root_mean_square(intervals);
     point.is_under_floor = point.error.rms <= reference.floor;
   }
 
@@ -257,6 +272,13 @@ void rank_stage(std::vector<ChartPoint*>& points) {
 
 }  // namespace
 
+SensorValues values_of(const SensorIlluminance& found) {
+  SensorValues values;
+  values.error_lux = found.error_lux;
+  for (std::size_t s = 0; s < found.size(); ++s) values.lux.push_back(found.total_lux(s));
+  return values;
+}
+
 ErrorNumbers error_numbers(const std::vector<double>& lux, const std::vector<double>& truth,
                            double floor_lux) {
   ErrorNumbers numbers;
@@ -271,6 +293,16 @@ ErrorNumbers error_numbers(const std::vector<double>& lux, const std::vector<dou
   numbers.p95 = quantile(relative, 0.95), numbers.p95_lux = quantile(absolute, 0.95);
   numbers.worst = relative[numbers.worst_sensor];
   numbers.worst_lux = *std::max_element(absolute.begin(), absolute.end());
+  return numbers;
+}
+
+ErrorNumbers error_numbers(const SensorValues& values, const std::vector<double>& truth,
+                           double floor_lux) {
+  if (!values.is_picture()) return error_numbers(values.lux, truth, floor_lux);
+  ErrorNumbers numbers = error_numbers(values.lux, truth, kWhite);
+  const Image8 a = picture_of(values.lux, values.width), b = picture_of(truth, values.width);
+  numbers.mean_255 = mean_difference(a, b);
+  numbers.similarity = structural_similarity(a, b);
   return numbers;
 }
 

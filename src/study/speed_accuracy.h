@@ -8,18 +8,27 @@
 #include <vector>
 
 #include "core/progress.h"
+#include "illuminance/sensor.h"
 
 namespace tenku {
 
 /// What a calculation says of all sensors. Shape  both [sensor]. Units  lux.
+///
+/// Of a picture the codes of its pixels, channel by channel, 0 to 255: errors are then in percent
+/// of white.
 struct SensorValues {
   std::vector<double> lux;
-  std::vector<double> error_lux;  ///< half-widths of its 95 % intervals
+  std::vector<double> error_lux;  ///< half-widths of its 95 % intervals; empty: not told
+  int width = 0;                  ///< of a picture, pixels; 0: sensors
+
+  bool is_picture() const { return width > 0; }
 };
+
+SensorValues values_of(const SensorIlluminance& found);
 
 /// One way to calculate, at one setting.
 struct ChartSetting {
-  std::string stage;    ///< `sky`, `visibility`, `lod`, `form-factors`, `mesh`
+  std::string stage;    ///< of `chart_stages`
   std::string method;   ///< settings of one method lie on one line of the chart
   std::string setting;  ///< in words, `64 elements`
   std::string study;  ///< keys of a study's `[calculation]` that ask for it; empty: there are none
@@ -39,7 +48,13 @@ struct ErrorNumbers {
   double rms = 0.0, p95 = 0.0, worst = 0.0;              ///< percent
   double rms_lux = 0.0, p95_lux = 0.0, worst_lux = 0.0;  ///< absolute
   std::size_t worst_sensor = 0;                          ///< by the relative error
+  /// Of a picture: mean difference of its codes, in 1/255, and structural similarity.
+  double mean_255 = 0.0, similarity = 1.0;
 };
+
+/// The same against what is true: of pictures relative to white.
+ErrorNumbers error_numbers(const SensorValues& values, const std::vector<double>& truth,
+                           double floor_lux);
 
 /// @param floor_lux  lower values are held to it
 ErrorNumbers error_numbers(const std::vector<double>& lux, const std::vector<double>& truth,
@@ -53,7 +68,7 @@ struct ChartPoint {
   int repeats = 0;
   double memory_mb = 0.0;  ///< most that the process held while it ran, the scene included
   ErrorNumbers error;
-  double predicted_error = 0.0;  ///< root mean square of its own 95 % intervals, percent
+  double predicted_error = 0.0;  ///< root mean square of its own 95 % intervals, percent; NaN: none
   bool is_on_front = false;      ///< nothing faster is better
   bool is_knee = false;          ///< of the front: beyond it accuracy costs more than it is worth
   bool is_under_floor = false;   ///< as good as the reference: not ranked
@@ -68,6 +83,7 @@ struct ReferenceResult {
   ErrorNumbers difference;    ///< between its two runs
   double floor = 0.0;         ///< its own error, percent: half of that difference's RMS
   std::vector<double> truth;  ///< [sensor], mean of both runs, lux
+  bool is_picture = false;
 };
 
 struct ChartResult {

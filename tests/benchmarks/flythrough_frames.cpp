@@ -13,6 +13,7 @@
 #include "flythrough/played_frame.h"
 #include "output/image_writer.h"
 #include "study/lit_scene.h"
+#include "view/picture_difference.h"
 #include "view/tone_map.h"
 #include "view/view_render.h"
 
@@ -69,10 +70,10 @@ int compare(char** argv, int argc) {
       const Image8 c = tone_map(render(next).luminance, tone),
                    d = tone_map(testing_support::played_frame(store, next, lighting).luminance,
                                 tone);
-      step = testing_support::mean_difference(b, d) - testing_support::mean_difference(a, c);
+      step = mean_difference(b, d) - mean_difference(a, c);
     }
     fmt::print("{},{:.3f},{:.4f},{:.3f},{:.2f},{:.2f},{:.2f},{:.4f}\n", frame,
-               testing_support::mean_difference(a, b), testing_support::structural_similarity(a, b),
+               mean_difference(a, b), structural_similarity(a, b),
                step, direct_s, direct_cpu, played_s,
                static_cast<double>(played.empty_samples) / (4.0 * a.width * a.height));
     if (out == "-") continue;

@@ -17,6 +17,7 @@
 #include "flythrough/relight.h"
 #include "flythrough/store_lighting.h"
 #include "support/test_scene.h"
+#include "view/picture_difference.h"
 #include "view/tone_map.h"
 #include "view/view_render.h"
 
