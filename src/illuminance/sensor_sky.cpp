@@ -45,9 +45,13 @@ void SensorSky::refine(double enough) {
 }
 
 /// Checks have met things that float: the slices made before did not know them. What the checks
-/// found is then part of the slices, and new slices must be checked in the place of all.
+/// found is then part of the slices, and new slices must be checked in the place of all. A slice
+/// that claims more sky than before has lost what it knew: what is claimed is never too little.
 void SensorSky::trace_again() {
-  for (Entry& entry : entry_) entry.slice = make_slice(entry.slice.azimuth, 0, 0.0);
+  for (Entry& entry : entry_) {
+    SkySlice again = make_slice(entry.slice.azimuth, 0, 0.0);
+    if (again.light.view < entry.slice.light.view) entry.slice = again;
+  }
   checks_ = {};
   unchecked_ = true;
   ++traced_again_;
@@ -107,7 +111,7 @@ void SensorSky::fill_gaps() {
 /// Whether the checks have nothing more to tell: slices that fill gaps are not checked.
 bool SensorSky::has_sure_claims() const {
   constexpr double kSure = 1e-4;  // of the value
-  return checks_.lux_squared <= square(kSure * lux_) &&
+  return !unchecked_ && checks_.lux_squared <= square(kSure * lux_) &&
          (sight_.table != nullptr || checks_.view == 0.0);
 }
 

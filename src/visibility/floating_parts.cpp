@@ -16,6 +16,7 @@ constexpr double kFeet_m = 0.3;               // up from the lowest point
 constexpr double kReachesOut = 0.1;           // of its width, and
 constexpr double kReachesOut_m = 0.3;         // at least so far
 constexpr double kCovers = 1.2;               // times the box of its plan: two sides of it
+constexpr double kTwoSided = 0.5;             // of what lies above the feet faces up and down alike
 constexpr std::size_t kMostTriangles = 1000;  // of a part
 constexpr double kCell_m = 50.0;
 
@@ -71,6 +72,11 @@ struct Plan {
   }
 };
 
+/// Positive where the corners run counter-clockwise, seen from above.
+double area_in_plan(Vec3 p, Vec3 q, Vec3 r) {
+  return 0.5 * ((q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x));
+}
+
 /// What one part is like, before it is known whether it floats.
 FloatingPart measured(const TriangleSoup& soup, std::span<const std::uint32_t> triangles,
                       Vec3& foot) {
@@ -81,29 +87,39 @@ FloatingPart measured(const TriangleSoup& soup, std::span<const std::uint32_t> t
   for (const std::uint32_t t : triangles) {
     const auto& [a, b, c] = soup.triangles[t];
     const Vec3 &p = soup.vertices[a], &q = soup.vertices[b], &r = soup.vertices[c];
-    covered += 0.5 * std::abs((q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x));
+    covered += std::abs(area_in_plan(p, q, r));
     for (const Vec3& v : {p, q, r}) {
       whole.add(v);
       part.lowest = std::min(part.lowest, v.z), part.highest = std::max(part.highest, v.z);
     }
   }
   Vec3 sum;
-  double count = 0.0;
+  double count = 0.0, up = 0.0, down = 0.0;
   for (const std::uint32_t t : triangles) {
-    for (const std::uint32_t v : soup.triangles[t]) {
+    const auto& [a, b, c] = soup.triangles[t];
+    bool is_above = true;
+    for (const std::uint32_t v : {a, b, c}) {
       const Vec3& p = soup.vertices[v];
       if (p.z > part.lowest + kFeet_m) continue;
+      is_above = false;
       feet.add(p);
       sum = sum + p, count += 1.0;
     }
+    if (!is_above) continue;
+    const double area = area_in_plan(soup.vertices[a], soup.vertices[b], soup.vertices[c]);
+    (area > 0.0 ? up : down) += std::abs(area);
   }
   foot = (1.0 / count) * sum;
   foot.z = part.lowest;
   part.middle = {0.5 * (whole.west + whole.east), 0.5 * (whole.south + whole.north),
                  0.5 * (part.lowest + part.highest)};
   part.radius = 0.5 * std::hypot(whole.east - whole.west, whole.north - whole.south);
-  part.overhangs = whole.beyond(feet) > std::max(kReachesOut_m, kReachesOut * whole.width()) &&
-                   covered > kCovers * whole.area();
+  const bool reaches_out =
+      whole.beyond(feet) > std::max(kReachesOut_m, kReachesOut * whole.width()) &&
+      covered > kCovers * whole.area();
+  // A bridge stands on both of its ends; a house has one roof above its feet.
+  const bool spans = 2.0 * std::min(up, down) > kTwoSided * (up + down);
+  part.overhangs = reaches_out || spans;
   return part;
 }
 

@@ -27,8 +27,9 @@ struct FloatingPart {
 /// them may have sky below.
 ///
 /// A part is what hangs together over the edges of one object. It may float if there is air
-/// under its lowest points, or if it reaches out beyond its feet and covers its plan twice (a crown
-/// on a trunk does, a hill does not). Parts of many triangles are left out.
+/// under its lowest points, if it reaches out beyond its feet and covers its plan twice (a crown
+/// on a trunk does, a hill does not), or if what lies above its feet faces up and down alike (a
+/// bridge does, a house does not). Parts of many triangles are left out.
 ///
 /// Threads  immutable after construction; may be shared.
 class FloatingParts {
