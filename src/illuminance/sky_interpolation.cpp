@@ -29,6 +29,12 @@ constexpr std::size_t kLeastPoints = 5;
 constexpr double kUnknown = 0.002;  // of a fit: what its points may all have missed
 constexpr double kPoint = 0.5;      // of the mean interval of its points
 
+// What stands so near that light changes faster than those around can tell: after G. Ward,
+// F. Rubinstein and R. Clear, "A ray tracing solution for diffuse interreflection", SIGGRAPH 1988.
+constexpr int kProbes = 8;               // ways around, at
+constexpr double kProbeSlope = 0.57735;  // 30 degrees up
+constexpr double kTooNear = 1.0;         // of the way to the nearest point
+
 // Trust.
 constexpr std::size_t kFewestPilots = 60;
 constexpr double kPartOfTolerance = 0.5;  // as ErrorBudget has it
@@ -262,7 +268,22 @@ class SparseLight {
     });
     // Under a roof that the others are not under.
     if (is_covered(s) != is_covered(nearest)) return std::nullopt;
+    const double nearest_m = length(sensors_.position[nearest] - sensors_.position[s]);
+    if (is_beside_something(s, kTooNear * nearest_m)) return std::nullopt;
     return plane.at_origin();
+  }
+
+  bool is_beside_something(std::uint32_t s, double within_m) const {
+    const Vec3 normal = sensors_.normal[s];
+    const TangentFrame frame = tangent_frame(normal);
+    const Vec3 origin = sensors_.position[s] + rays_.lift_m() * normal;
+    for (int k = 0; k < kProbes; ++k) {
+      const double turn = 2.0 * kPi * k / kProbes;
+      const Vec3 level = std::cos(turn) * frame.tangent + std::sin(turn) * frame.bitangent;
+      const auto hit = rays_.first_hit(origin, normalized(level + kProbeSlope * normal));
+      if (hit && hit->distance_m < within_m) return true;
+    }
+    return false;
   }
 
   bool is_covered(std::uint32_t s) const {
