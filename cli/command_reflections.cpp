@@ -255,7 +255,8 @@ void add_options(CLI::App& app, ReflectionsCommandOptions& o) {
   add_site_options(app, o.site);
   add_sky_options(app, o.sky);
   app.get_option("--sky")->description(
-      "cie:1 .. cie:15 (default cie:12, clear), perez:DNI,DHI (W/m2), weather:FILE.epw: the sun "
+      "cie:1 .. cie:15 (default cie:12, clear), perez:DNI,DHI (W/m2), weather:FILE.epw or "
+      "FILE.wea: the sun "
       "is the sky's");
   app.add_flag("--day", o.day, "the whole day of --time, on its clock");
   app.add_flag("--year", o.year, "both equinoxes and both solstices of its year");

@@ -56,7 +56,7 @@ void add_site_options(CLI::App& app, SiteOptions& o) {
 void add_sky_options(CLI::App& app, SkyOptions& o) {
   app.add_option("--sky", o.model,
                  "uniform, cie-overcast (default), cie:1 .. cie:15, perez:DNI,DHI (W/m2), "
-                 "weather:FILE.epw, image:FILE.hdr, none");
+                 "weather:FILE.epw or FILE.wea, image:FILE.hdr, none");
   app.add_option("--sky-illuminance", o.sky_illuminance_lx,
                  "horizontal diffuse illuminance of the open sky, lx");
   app.add_option("--sun-illuminance", o.sun_illuminance_lx,

@@ -8,6 +8,7 @@
 #include "core/csv.h"
 #include "core/error.h"
 #include "site/sun_position.h"
+#include "site/wea_file.h"
 
 namespace tenku {
 namespace {
@@ -71,8 +72,10 @@ class LineReader {
 /// LOCATION,city,state,country,source,WMO,latitude,longitude,time zone,elevation
 void read_location(LineReader& line, WeatherFile& file) {
   if (!line.next() || line.cells().front() != "LOCATION" || line.cells().size() < 10) {
-    throw InputError(fmt::format(
-        "{}, line 1: an EPW file begins with LOCATION and nine fields after it", file.name));
+    throw InputError(
+        fmt::format("{}, line 1: an EPW file begins with LOCATION and nine fields after it, a WEA "
+                    "file with place",
+                    file.name));
   }
   file.city = std::string(line.cells()[1]);
   file.location = {Angle::degrees(line.value(6)), Angle::degrees(line.value(7)), line.value(9)};
@@ -159,6 +162,7 @@ const WeatherHour& WeatherFile::at(Instant instant) const {
 }
 
 WeatherFile parse_weather(std::string_view text, const std::string& name) {
+  if (is_wea(text)) return parse_wea(text, name);
   WeatherFile file;
   file.name = name;
   LineReader line(text, name);

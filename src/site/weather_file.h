@@ -1,4 +1,4 @@
-/// Hourly weather of a place, as EnergyPlus writes it.
+/// Hourly weather of a place: EPW as EnergyPlus writes it, WEA as Radiance reads it.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +24,7 @@ struct WeatherHour {
 /// A weather file, read whole.
 ///
 /// Source   "Auxiliary Programs", EnergyPlus documentation, chapter on EPW: fields 1-16 and their
-///          marks of missing values.
+///          marks of missing values; gendaymtx(1) of Radiance for WEA.
 struct WeatherFile {
   std::string name;  ///< of the file
   std::string city;
@@ -39,6 +39,7 @@ struct WeatherFile {
   const WeatherHour& at(Instant instant) const;
 };
 
+/// @param text  of an EPW file, or of a WEA file, which begins with `place`
 /// @param name  of the file, for messages
 /// @throws InputError naming the line, if the file is cut off, a date or number is impossible, or
 ///         hours are missing
