@@ -49,6 +49,47 @@ TEST(ChartCommand, WritesTableAndPageWithAReferenceOfKnownError) {
   EXPECT_NE(contents_of(folder / "c/recommended.toml").find("[calculation]"), std::string::npos);
 }
 
+TEST(ChartCommand, ComparesPicturesAsTheyAreSeen) {
+  const fs::path folder = test_folder();
+  write_text(folder / "b.obj", kBlocks);
+  const ProgramRun run = run_tenku(
+      "chart b.obj --sky cie:12 --sun-altitude 40 --sun-azimuth 200 --stage picture,fly-through "
+      "--eye=-50,-50,30 --target=0,0,0 --size 96x64 --budget 15s --out c",
+      folder);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const CsvInput table(contents_of(folder / "c/chart.csv"), "chart.csv");
+  std::set<std::string> methods;
+  for (std::size_t row = 0; row < table.size(); ++row) {
+    methods.insert(table.text(row, "method"));
+    EXPECT_EQ(table.text(row, "worst_x"), "");
+    // Of white: a picture of these blocks is not far off by any method.
+    EXPECT_LE(table.number(row, "mean_255"), 2.0) << table.text(row, "method");
+    EXPECT_GE(table.number(row, "similarity"), 0.9) << table.text(row, "method");
+    EXPECT_LE(table.number(row, "similarity"), 1.0);
+  }
+  EXPECT_EQ(methods, (std::set<std::string>{"budget", "frame by frame", "off", "paper", "points"}));
+}
+
+TEST(ChartCommand, ComparesReflectionsAndMirrorsWhereThereAreAny) {
+  const fs::path folder = test_folder();
+  write_text(folder / "b.obj", kBlocks);
+  const std::string sky = "chart b.obj --sky cie-overcast --sky-illuminance 10000 --out c ";
+  const ProgramRun none = run_tenku(sky + "--stage mirrors", folder);
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_NE(none.err.find("none to compare"), std::string::npos) << none.err;
+  write_text(folder / "m.toml", "[wall]\nmirror = 0.8\nreflectance = 0.1\n");
+  const ProgramRun run =
+      run_tenku(sky +
+                    "--materials m.toml --stage mirrors,reflections --size 64x48 --grid ground "
+                    "--spacing 12 --budget 15s",
+                folder);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const CsvInput table(contents_of(folder / "c/chart.csv"), "chart.csv");
+  std::set<std::string> methods;
+  for (std::size_t row = 0; row < table.size(); ++row) methods.insert(table.text(row, "method"));
+  EXPECT_EQ(methods, (std::set<std::string>{"beams", "bounces", "off", "paths", "rays"}));
+}
+
 TEST(ChartCommand, RefusesWhatIsWrong) {
   const fs::path folder = test_folder();
   write_text(folder / "b.obj", kBlocks);
