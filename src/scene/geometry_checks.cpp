@@ -231,13 +231,21 @@ std::optional<Finding> huge_triangles(const RawScene& raw) {
       huge.size()};
 }
 
+/// Terrain and water are measured as coarsely as they are even: their faces tell no unit.
+bool may_be_of_any_size(const Scene& scene, std::size_t s) {
+  return scene.surfaces.type[s] == SurfaceType::Ground ||
+         scene.surfaces.type[s] == SurfaceType::Water;
+}
+
 /// A model in millimetres is a thousand times too large, one in kilometres too small to see.
 std::optional<Finding> unlikely_size(const RawScene& raw) {
   constexpr double kLarge_m = 200.0, kSmall_m = 0.02;
   const Scene& scene = raw.scene;
   std::vector<double> edges;
   edges.reserve(scene.surfaces.size());
-  for (std::size_t s = 0; s < scene.surfaces.size(); ++s) edges.push_back(longest_edge(scene, s));
+  for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
+    if (!may_be_of_any_size(scene, s)) edges.push_back(longest_edge(scene, s));
+  }
   if (edges.empty()) return std::nullopt;
   const double longest = *std::max_element(edges.begin(), edges.end());
   const double median = median_of(std::move(edges));

@@ -238,6 +238,11 @@ TEST(Gltf, WhatIsNotReadIsTold) {
   const Scene animated =
       read_text("a.gltf", with(gltf_text(), R"("scene":0,)", R"("scene":0,"animations":[{}],)"));
   EXPECT_EQ(count_of(animated, "ignored_animation"), 1U);
+  const std::string lines = R"("primitives":[{"attributes":{"POSITION":0},"mode":1},)"
+                            R"({"attributes":{"POSITION":0},"mode":0},)";
+  const Scene drawn = read_text("a.gltf", with(gltf_text(), R"("primitives":[)", lines));
+  EXPECT_EQ(count_of(drawn, "not_a_surface"), 2U);
+  EXPECT_EQ(drawn.surfaces.size(), 12U);
   EXPECT_THROW(read_text("a.gltf", with(gltf_text(), R"("scene":0,)",
                                         R"("extensionsRequired":["EXT_meshopt_compression"],)")),
                InputError);

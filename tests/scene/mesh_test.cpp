@@ -132,5 +132,17 @@ TEST(Radiance, LampsShineByTheirRadiance) {
   EXPECT_NEAR(luminance_of(lamp.emission_lm_m2), 1790.0 * std::numbers::pi, 1e-9);
 }
 
+// A box of 300 m faces may be one of 300 mm; a sheet of terrain of such faces is none.
+TEST(Sizes, TerrainTellsNoUnit) {
+  const std::string box =
+      "v 0 0 0\nv 300 0 0\nv 300 300 0\nv 0 300 0\nv 0 0 300\nv 300 0 300\nv 300 300 300\n"
+      "v 0 300 300\no NAME\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  const auto named = [&](const std::string& name) {
+    return std::string(box).replace(box.find("NAME"), 4, name);
+  };
+  EXPECT_EQ(count_of(read_text("a.obj", named("block")), "unlikely_size"), 1U);
+  EXPECT_EQ(count_of(read_text("a.obj", named("ground")), "unlikely_size"), 0U);
+}
+
 }  // namespace
 }  // namespace tenku

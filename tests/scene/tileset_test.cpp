@@ -96,6 +96,22 @@ TEST(Tileset, ExternalTilesetsAreFollowedAndMissingTilesTold) {
   EXPECT_THROW(read(folder.path()), InputError);
 }
 
+TEST(Tileset, PointsAndRepeatedModelsAreToldAndCounted) {
+  const TemporaryFolder folder;
+  const std::string rest(28, '\0');
+  folder.write("a.b3dm", b3dm(batched_glb(), "", ""));
+  folder.write("b.i3dm", "i3dm" + rest);
+  folder.write("c.pnts", "pnts" + rest);
+  const auto child = [](const std::string& uri) {
+    return "{" + kTile + R"(,"content":{"uri":")" + uri + "\"}}";
+  };
+  const Scene scene = read(folder.write(
+      "tileset.json", tileset(R"("children":[)" + child("a.b3dm") + "," + child("b.i3dm") + "," +
+                              child("c.pnts") + "," + child("c.pnts") + "]")));
+  EXPECT_EQ(count_of(scene, "ignored_tile"), 3U);
+  EXPECT_GE(scene.surfaces.size(), 12U);
+}
+
 TEST(Tileset, BatchedModelsGiveTheirFeaturesNames) {
   const TemporaryFolder folder;
   const auto file = folder.write(
