@@ -24,6 +24,11 @@ if(TENKU_SANITIZE)
                          -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   target_link_options(tenku_options INTERFACE -fsanitize=address,undefined)
 endif()
+if(TENKU_FUZZ)
+  target_compile_options(tenku_options INTERFACE -fsanitize=fuzzer-no-link,address,undefined
+                         -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  target_link_options(tenku_options INTERFACE -fsanitize=address,undefined)
+endif()
 
 add_custom_target(header_checks)
 
