@@ -75,20 +75,26 @@ void append_objects(Scene& city, std::vector<SceneObject> objects) {
 
 }  // namespace
 
-std::vector<fs::path> tiles_in(const fs::path& folder,
-                               const std::function<bool(const fs::path&)>& is_tile) {
-  std::vector<fs::path> tiles;
+std::vector<fs::path> files_in(const fs::path& folder,
+                               const std::function<bool(const fs::path&)>& is_wanted) {
+  std::vector<fs::path> files;
   std::error_code error;
   for (fs::recursive_directory_iterator entry(folder, error), end; entry != end && !error;
        entry.increment(error)) {
-    if (entry->is_regular_file() && is_tile(entry->path())) tiles.push_back(entry->path());
+    if (entry->is_regular_file() && is_wanted(entry->path())) files.push_back(entry->path());
   }
   if (error) throw InputError("cannot read the folder " + folder.string() + ": " + error.message());
+  // The order of a folder is that of its file system; that of names is the same everywhere.
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<fs::path> tiles_in(const fs::path& folder,
+                               const std::function<bool(const fs::path&)>& is_tile) {
+  std::vector<fs::path> tiles = files_in(folder, is_tile);
   if (tiles.empty()) {
     throw InputError(folder.string() + " is a folder without scene files that could be tiles");
   }
-  // The order of a folder is that of its file system; that of names is the same everywhere.
-  std::sort(tiles.begin(), tiles.end());
   return tiles;
 }
 

@@ -9,7 +9,13 @@
 
 namespace tenku {
 
-/// The files of a folder and of the folders in it that `is_tile` names, by name.
+/// The files of a folder and of the folders in it that `is_wanted` names, by name.
+/// @throws InputError if the folder cannot be read
+std::vector<std::filesystem::path> files_in(
+    const std::filesystem::path& folder,
+    const std::function<bool(const std::filesystem::path&)>& is_wanted);
+
+/// The same, of tiles.
 /// @throws InputError if there are none
 std::vector<std::filesystem::path> tiles_in(
     const std::filesystem::path& folder,

@@ -24,6 +24,7 @@
 #include "scene/radiance_reader.h"
 #include "scene/repair.h"
 #include "scene/strict.h"
+#include "scene/terrain_reader.h"
 #include "scene/text_cursor.h"
 #include "scene/tileset_reader.h"
 
@@ -32,13 +33,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class Format { CityJson, CityGml, Obj, Ply, Stl, Gltf, Honeybee, Tileset, Radiance };
+enum class Format { CityJson, CityGml, Obj, Ply, Stl, Gltf, Honeybee, Tileset, Radiance, Terrain };
 
 struct Ending {
   std::string_view text;
   Format format;
 };
-constexpr std::array<Ending, 14> kEndings{{{"tileset.json", Format::Tileset},
+constexpr std::array<Ending, 16> kEndings{{{"tileset.json", Format::Tileset},
                                            {".b3dm", Format::Tileset},
                                            {".json", Format::CityJson},
                                            {".jsonl", Format::CityJson},
@@ -51,7 +52,9 @@ constexpr std::array<Ending, 14> kEndings{{{"tileset.json", Format::Tileset},
                                            {".gltf", Format::Gltf},
                                            {".glb", Format::Gltf},
                                            {".hbjson", Format::Honeybee},
-                                           {".rad", Format::Radiance}}};
+                                           {".rad", Format::Radiance},
+                                           {".tif", Format::Terrain},
+                                           {".tiff", Format::Terrain}}};
 
 std::optional<Format> known_format(const fs::path& path) {
   std::string name = path.filename().string();
@@ -66,10 +69,11 @@ std::optional<Format> known_format(const fs::path& path) {
 
 Format format_of(const fs::path& path) {
   if (const auto format = known_format(path)) return *format;
-  throw InputError(path.string() +
-                   ": the format is not known by this name; scenes are .city.json, .city.jsonl, "
-                   ".gml, .obj, .gltf, .glb, .hbjson, .ply, .stl, .rad, tileset.json or .b3dm, or "
-                   "one of them with .gz");
+  throw InputError(
+      path.string() +
+      ": the format is not known by this name; scenes are .city.json, .city.jsonl, "
+      ".gml, .obj, .gltf, .glb, .hbjson, .ply, .stl, .rad, .tif, tileset.json or .b3dm, or "
+      "one of them with .gz");
 }
 
 RawScene read_file(const fs::path& path, const ReadOptions& options, Progress& progress) {
@@ -90,6 +94,8 @@ RawScene read_file(const fs::path& path, const ReadOptions& options, Progress& p
       return read_tileset(path, progress);
     case Format::Radiance:
       return read_radiance(path, progress);
+    case Format::Terrain:
+      return read_terrain(path, options.crs, false, progress);
     case Format::CityJson:
       break;
   }
@@ -103,6 +109,21 @@ bool is_city_file(const fs::path& path) {
   return format == Format::CityGml || format == Format::CityJson;
 }
 
+bool is_terrain_file(const fs::path& path) { return known_format(path) == Format::Terrain; }
+
+/// Sets a city on the elevation models of its folder.
+void append_terrain(RawScene& city, const fs::path& folder, const std::string& crs_option,
+                    Progress& progress) {
+  const std::string& crs = crs_option.empty() ? city.crs : crs_option;
+  for (const fs::path& path : files_in(folder, is_terrain_file)) {
+    RawScene terrain = read_terrain(path, crs.empty() ? crs : Crs::parse(crs).id,
+                                    city.has_registry_axes && crs_option.empty(), progress);
+    if (!crs.empty()) terrain.crs = city.crs;  // or what the option puts in its place
+    terrain.has_registry_axes = city.has_registry_axes;
+    append_tile(city, std::move(terrain), path);
+  }
+}
+
 /// A file, or a folder of tiles.
 RawScene read_raw(const fs::path& path, const ReadOptions& options, Progress& progress) {
   if (!fs::is_directory(path)) return read_file(path, options, progress);
@@ -112,6 +133,7 @@ RawScene read_raw(const fs::path& path, const ReadOptions& options, Progress& pr
   for (std::size_t t = 1; t < tiles.size(); ++t) {
     append_tile(city, read_file(tiles[t], options, progress), tiles[t]);
   }
+  append_terrain(city, path, options.crs, progress);
   return city;
 }
 
