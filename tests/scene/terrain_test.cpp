@@ -67,7 +67,8 @@ using Shorts = std::vector<std::uint16_t>;
 // EPSG:8228 and 6360: heights of one datum in feet and in US survey feet.
 constexpr std::uint16_t kNavd88Feet = 8228, kNavd88SurveyFeet = 6360;
 
-/// 3 by 2 pixels of 10 m whose north-west corner is at `west`, `north`.
+/// 3 by 2 pixels of 10 m, without a reference system if `epsg` is 0, whose north-west corner is at
+/// `west`, `north`.
 std::string elevation_model(const std::vector<float>& z, std::uint16_t epsg, double west,
                             double north, std::uint16_t vertical_unit = 0) {
   constexpr std::uint16_t kShort = 3, kLong = 4, kAscii = 2, kDouble = 12;
@@ -84,11 +85,7 @@ std::string elevation_model(const std::vector<float>& z, std::uint16_t epsg, dou
   tiff.tag(339, kShort, Shorts{3});
   tiff.tag(33550, kDouble, std::vector<double>{10, 10, 0});
   tiff.tag(33922, kDouble, std::vector<double>{0, 0, 0, west, north, 0});
-  Shorts keys{1, 1, 0, 2, 1024, 0, 1, 1, 1025, 0, 1, 1};
-  if (epsg != 0) {
-    keys[3] = 3;
-    for (const std::uint16_t v : Shorts{3072, 0, 1, epsg}) keys.push_back(v);
-  }
+  Shorts keys{1, 1, 0, 3, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, epsg};
   if (vertical_unit != 0) {
     keys[3] = 5;
     for (const std::uint16_t v :
@@ -97,7 +94,7 @@ std::string elevation_model(const std::vector<float>& z, std::uint16_t epsg, dou
       keys.push_back(v);
     }
   }
-  tiff.tag(34735, kShort, keys);
+  if (epsg != 0) tiff.tag(34735, kShort, keys);
   tiff.tag(42113, kAscii, std::vector<char>{'-', '9', '9', '9', '9', '\0'});
   return tiff.bytes(bytes_of(z));
 }
