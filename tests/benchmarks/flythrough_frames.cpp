@@ -73,9 +73,8 @@ int compare(char** argv, int argc) {
       step = mean_difference(b, d) - mean_difference(a, c);
     }
     fmt::print("{},{:.3f},{:.4f},{:.3f},{:.2f},{:.2f},{:.2f},{:.4f}\n", frame,
-               mean_difference(a, b), structural_similarity(a, b),
-               step, direct_s, direct_cpu, played_s,
-               static_cast<double>(played.empty_samples) / (4.0 * a.width * a.height));
+               mean_difference(a, b), structural_similarity(a, b), step, direct_s, direct_cpu,
+               played_s, static_cast<double>(played.empty_samples) / (4.0 * a.width * a.height));
     if (out == "-") continue;
     write_png(fmt::format("{}/direct{:04}.png", out, frame), a);
     write_png(fmt::format("{}/played{:04}.png", out, frame), b);
