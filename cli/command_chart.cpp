@@ -34,8 +34,7 @@ Sensors outdoors(const LitScene& lit, const Sensors& all, Progress& progress) {
   IlluminanceOptions how;
   how.tolerance_pct = 20.0;
   how.bounces = 0;
-  const SensorIlluminance light =
-      illuminate(all, lit.rays(), daylight_of(lit.sky()), how, progress).values;
+  const SensorIlluminance light = illuminate(all, lit.rays(), lit.source(), how, progress).values;
   std::vector<std::uint32_t> seeing;
   for (std::uint32_t s = 0; s < all.size(); ++s) {
     if (light.sun_lux[s] > 0.0 || light.sky_lux[s] > 0.0) seeing.push_back(s);

@@ -53,11 +53,12 @@ MeshRays::MeshRays(const ElementMesh& all)
 }
 
 MetSide MeshRays::met(Vec3 position, Vec3 direction, std::uint32_t element) const {
-  const Vec3 face = normal[element], corner = mesh.vertices[mesh.elements[element][0]];
-  const double slope = dot(direction, face), away = dot(face, corner - position) / slope;
-  return {2 * element + (slope > 0.0 ? 1U : 0U),
-          rays.has_glass() ? rays.glass_transmission(position, direction, away) : 1.0,
-          position + away * direction};
+  const bool is_back = dot(direction, normal[element]) > 0.0;
+  const double passed =
+      rays.has_glass()
+          ? rays.glass_transmission(position, direction, away(position, direction, element))
+          : 1.0;
+  return {2 * element + (is_back ? 1U : 0U), passed, direction};
 }
 
 std::optional<MetSide> MeshRays::first_met(Vec3 position, Vec3 direction) const {

@@ -17,8 +17,8 @@ namespace tenku {
 /// A ray that met a side of an element.
 struct MetSide {
   std::uint32_t side;
-  double share;  ///< of what comes by the ray: what panes do not hold, by the number of rays
-  Vec3 place;    ///< on the plane of the element
+  double share;    ///< of what comes by the ray: what panes do not hold, by the number of rays
+  Vec3 direction;  ///< of the ray
 };
 
 /// A mesh ready to be met by rays.
@@ -38,6 +38,17 @@ struct MeshRays {
   std::optional<MetSide> first_met(Vec3 position, Vec3 direction) const;
   /// The same where the element that it meets is known.
   MetSide met(Vec3 position, Vec3 direction, std::uint32_t element) const;
+  /// Where a ray from `position` met the plane of the element.
+  Vec3 place(Vec3 position, const MetSide& met) const {
+    return position + away(position, met.direction, met.side / 2) * met.direction;
+  }
+
+ private:
+  /// To the plane of an element, in lengths of `direction`.
+  double away(Vec3 position, Vec3 direction, std::uint32_t element) const {
+    const Vec3 face = normal[element], corner = mesh.vertices[mesh.elements[element][0]];
+    return dot(face, corner - position) / dot(direction, face);
+  }
 };
 
 /// The disc sampled by rays, one in each cell of a grid. Each point takes one of a few patterns of

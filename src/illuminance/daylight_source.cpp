@@ -23,11 +23,16 @@ double DaylightSource::unobstructed_lux() const {
   return (sky ? sky->horizontal_lux() : 0.0) + from_sun;
 }
 
-DaylightSource daylight_of(const Sky& sky) {
+DaylightSource daylight_of(const Sky& sky, const std::optional<PartitionRequest>& partition) {
   DaylightSource source;
   if (sky.model) source.sky = std::make_unique<SkyTable>(*sky.model);
   source.sun = sky.sun;
   source.model = sky.model.get();
+  if (sky.model && partition) {
+    source.elements =
+        std::make_unique<ElementSky>(*sky.model, partition_sky(*sky.model, *partition));
+  }
+  source.partition = partition;
   return source;
 }
 

@@ -27,6 +27,9 @@ struct DaylightSource {
 };
 
 /// Sun and skylight of a sky, whose model it refers to.
-DaylightSource daylight_of(const Sky& sky);
+/// @param partition  the elements of the sky, where they are asked for by hand
+/// @throws InputError as `partition_sky`
+DaylightSource daylight_of(const Sky& sky,
+                           const std::optional<PartitionRequest>& partition = std::nullopt);
 
 }  // namespace tenku

@@ -213,7 +213,9 @@ void EmitterLight::add_lamp(std::uint32_t number, Vec3 position, Vec3 normal, Ra
   direct.lux = direct.lux + (whole * share) * lamp.exitance;
 }
 
-EmitterLight::Direct EmitterLight::at_pixel(Vec3 position, Vec3 normal, Rays rays) const {
+EmitterLight::Direct EmitterLight::at_pixel(Vec3 position, Vec3 normal, PixelLook look) const {
+  const Rays rays =
+      look == PixelLook::OnEdges ? Rays{kEdgeFirst, kEdgeMost} : Rays{kPixelFirst, kPixelMost};
   std::vector<double> rough_lm;
   for (const Lamp& lamp : lamp_) {
     rough_lm.push_back(rough_factor(lamp, position, normal) * luminance_of(lamp.exitance));
@@ -223,6 +225,10 @@ EmitterLight::Direct EmitterLight::at_pixel(Vec3 position, Vec3 normal, Rays ray
   for (std::uint32_t k = 0; k < lamp_.size(); ++k) {
     const double share = rough_lm[k] / sum;
     if (!(rough_lm[k] > 0.0) || share < kFaint) continue;
+    if (look == PixelLook::Names) {
+      direct.lamp.push_back(k);
+      continue;
+    }
     const int first = std::max(rays.first / 8, static_cast<int>(share * rays.first));
     add_lamp(k, position, normal, {first, rays.most}, direct);
   }
@@ -230,13 +236,12 @@ EmitterLight::Direct EmitterLight::at_pixel(Vec3 position, Vec3 normal, Rays ray
 }
 
 std::vector<EmitterLight::Direct> EmitterLight::at_pixels(const Sensors& points, double lift_m,
-                                                          bool on_edges) const {
-  const Rays rays = on_edges ? Rays{kEdgeFirst, kEdgeMost} : Rays{kPixelFirst, kPixelMost};
+                                                          PixelLook look) const {
   std::vector<Direct> light(points.size());
   if (!is_any()) return light;
   parallel_for(points.size(), kGrain, [&](IndexRange range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
-      light[i] = at_pixel(points.position[i] + lift_m * points.normal[i], points.normal[i], rays);
+      light[i] = at_pixel(points.position[i] + lift_m * points.normal[i], points.normal[i], look);
     }
   });
   return light;

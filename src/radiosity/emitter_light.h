@@ -54,13 +54,18 @@ class EmitterLight {
   Direct at(Vec3 position, Vec3 normal, int rays,
             std::span<const std::uint8_t> in_sight = {}) const;
 
+  enum class PixelLook {
+    Names,   ///< which lamps count, without their light
+    Usual,   ///< kPixelFirst
+    OnEdges  ///< kEdgeFirst
+  };
   /// The same for points of a picture, each beside its neighbours: lamps are not left to rows for
   /// being near, which would show as an edge, and those that give most of the light have more rays
   /// that must agree before they are believed (one of kPixelFirst may be wrong, unseen; of
   /// kEdgeFirst where neighbours tell of a shadow's edge).
   /// @param points  on their surfaces
   /// @return  [point]
-  std::vector<Direct> at_pixels(const Sensors& points, double lift_m, bool on_edges) const;
+  std::vector<Direct> at_pixels(const Sensors& points, double lift_m, PixelLook look) const;
 
   bool is_any() const { return !lamp_.empty(); }
   std::size_t size() const { return lamp_.size(); }
@@ -84,7 +89,7 @@ class EmitterLight {
     int first, most;
   };
   double rough_factor(const Lamp& lamp, Vec3 position, Vec3 normal) const;
-  Direct at_pixel(Vec3 position, Vec3 normal, Rays rays) const;
+  Direct at_pixel(Vec3 position, Vec3 normal, PixelLook look) const;
   void add_lamp(std::uint32_t lamp, Vec3 position, Vec3 normal, Rays rays, Direct& direct) const;
   double factor(const Lamp& lamp, Vec3 position, Vec3 normal) const;
   double seen(std::uint32_t lamp, Vec3 position, Vec3 normal, int rays) const;

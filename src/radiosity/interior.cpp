@@ -309,7 +309,9 @@ InteriorSensors Interior::look_from(const Sensors& sensors) const {
 
 void Interior::add_lamps(const Sensors& points, const InteriorLight& light, bool on_edges,
                          SensorIlluminance& values) const {
-  const auto lamps = emitters_.at_pixels(points, options_.lift_m, on_edges);
+  const auto lamps = emitters_.at_pixels(
+      points, options_.lift_m,
+      on_edges ? EmitterLight::PixelLook::OnEdges : EmitterLight::PixelLook::Usual);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Rgb lux = light.lamp_scale * lamps[i].lux;
     values.set_reflected(i, values.reflected_rgb[i] + lux);

@@ -32,30 +32,31 @@ PixelGather::PixelGather(const ElementMesh& mesh, const PointGatherOptions& opti
   }
 }
 
+Rgb PixelGather::sent_from(std::uint32_t side, Vec3 place, const SentBySides& sent) const {
+  return sent.reflected[side] + sent.slopes.beyond_mean(side, place);
+}
+
 /// Reflected radiosity, one draw.
-Rgb PixelGather::sent_by_path(MetSide at, const SentBySides& sent) const {
+Rgb PixelGather::sent_by_path(std::uint32_t side, Vec3 place, const SentBySides& sent) const {
   Rgb sum{}, weight = Rgb::grey(1.0);
-  SampleRandom random(key_of(at.place, kZenith, options_.form_factors.seed), 0, 0);
+  SampleRandom random(key_of(place, kZenith, options_.form_factors.seed), 0, 0);
   for (int step = 0;; ++step) {
-    const std::uint32_t element = at.side / 2;
-    weight = weight * sent.surfaces.reflectance[element];
-    const Vec3 normal = mesh_.mesh.normal(at.side), from = at.place + options_.lift_m * normal;
+    weight = weight * sent.surfaces.reflectance[side / 2];
+    const Vec3 normal = mesh_.mesh.normal(side), from = place + options_.lift_m * normal;
     const EmitterLight::Direct lamps = sent.lamps.at(from, normal, kLampRays);
-    sum = sum + weight * (sent.lamp_scale * lamps.lux +
-                          Rgb::grey(sent.slopes.daylight_lux(at.side, at.place)));
+    sum = sum +
+          weight * (sent.lamp_scale * lamps.lux + Rgb::grey(sent.slopes.daylight_lux(side, place)));
     const double u = random.uniform(), v = random.uniform();
     const auto next = mesh_.first_met(from, cosine_direction(normal, u, v));
     if (!next) return sum;
     weight = next->share * weight;
-    const std::uint32_t met = next->side / 2;
-    if (!lamps.has(sent.lamps.lamp_of(met))) {
-      sum = sum + weight * sent.surfaces.emission_lm_m2[met];
+    side = next->side, place = mesh_.place(from, *next);
+    if (!lamps.has(sent.lamps.lamp_of(side / 2))) {
+      sum = sum + weight * sent.surfaces.emission_lm_m2[side / 2];
     }
-    if (step == kMostSteps || !(length(next->place - from) < near_m_[met])) {
-      return sum + weight * (sent.reflected[next->side] +
-                             sent.slopes.beyond_mean(next->side, next->place));
+    if (step == kMostSteps || !(length(place - from) < near_m_[side / 2])) {
+      return sum + weight * sent_from(side, place, sent);
     }
-    at = *next;
   }
 }
 
@@ -68,20 +69,21 @@ PixelGather::Found PixelGather::look(const HemisphereLook& look, const Point& po
     found.lux = emission_left_to_row(sent.surfaces, sent.lamps, point.lamps, row);
   }
   Rgb far{}, near{};
-  const auto is_near = [&](const MetSide& one) {
-    return length(one.place - point.position) < near_m_[one.side / 2] &&
-           !sent.slopes.is_level(one.side);
-  };
+  std::vector<const MetSide*> nearby;
   for (const MetSide& one : met) {
-    const Rgb here = sent.reflected[one.side] + sent.slopes.beyond_mean(one.side, one.place);
-    Rgb& sum = is_near(one) ? near : far;
-    sum = sum + one.share * here;
+    const Vec3 place = mesh_.place(point.position, one);
+    const bool is_near =
+        length(place - point.position) < near_m_[one.side / 2] && !sent.slopes.is_level(one.side);
+    if (is_near) nearby.push_back(&one);
+    Rgb& sum = is_near ? near : far;
+    sum = sum + one.share * sent_from(one.side, place, sent);
   }
   const double lux = point.direct_lux + luminance_of(found.lux + far + near);
   if (found.mesh_lux > point.tolerance * lux && luminance_of(near) > 0.0) {
     near = {};
-    for (const MetSide& one : met) {
-      if (is_near(one)) near = near + one.share * sent_by_path(one, sent);
+    for (const MetSide* one : nearby) {
+      const Vec3 place = mesh_.place(point.position, *one);
+      near = near + one->share * sent_by_path(one->side, place, sent);
     }
   }
   found.lux = found.lux + far + near;
@@ -92,7 +94,7 @@ SettledLooks PixelGather::gather(const Sensors& points, const SentBySides& sent,
                                  const SensorIlluminance& values, double tolerance_pct,
                                  Progress& progress) const {
   const std::vector<EmitterLight::Direct> known =
-      sent.lamps.at_pixels(points, options_.lift_m, false);
+      sent.lamps.at_pixels(points, options_.lift_m, EmitterLight::PixelLook::Names);
   std::vector<std::uint8_t> level(points.size());
   const auto look_from = [&](std::span<const std::uint8_t> rough, LooksOfSensors& looks) {
     parallel_for(points.size(), kGrain, [&](IndexRange range) {

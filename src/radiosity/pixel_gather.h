@@ -61,7 +61,9 @@ class PixelGather {
     double direct_lux, tolerance;
   };
 
-  Rgb sent_by_path(MetSide at, const SentBySides& sent) const;
+  /// Reflected radiosity at a place on a side, as its corners tell.
+  Rgb sent_from(std::uint32_t side, Vec3 place, const SentBySides& sent) const;
+  Rgb sent_by_path(std::uint32_t side, Vec3 place, const SentBySides& sent) const;
   Found look(const HemisphereLook& look, const Point& point, const SentBySides& sent) const;
 
   PointGatherOptions options_;

@@ -25,8 +25,6 @@ constexpr int kFrames = 8;         // of a film
 constexpr double kArc_deg = 20.0;  // that its camera goes
 constexpr int kDeepest = 8;        // mirrors in a row, of the reference
 
-std::string percent(double tolerance) { return fmt::format("{:g} %", tolerance); }
-
 /// How luminance becomes codes: by the exposure of the first picture.
 class SharedTone {
  public:
@@ -76,12 +74,7 @@ struct PictureWay {
 
 RenderedView rendered(const LitScene& lit, const ChartView& view, const PictureWay& way,
                       std::uint64_t seed, Progress& progress) {
-  DaylightSource source = daylight_of(lit.sky());
-  if (way.partition && lit.sky().model) {
-    source.elements = std::make_unique<ElementSky>(*lit.sky().model,
-                                                   partition_sky(*lit.sky().model, *way.partition));
-    source.partition = way.partition;
-  }
+  const DaylightSource source = daylight_of(lit.sky(), way.partition);
   ViewRequest request;
   request.view = view.view;
   request.tolerance_pct = way.tolerance_pct;
@@ -229,7 +222,8 @@ void add_picture_stage(const LitScene& lit, const ChartView& view, std::uint64_t
   PictureList list(lit, view, seed, "picture", settings, references);
   list.hold_against("a picture, each point by itself", by_rays());
   for (const double tolerance : {20.0, 10.0, 5.0, 2.0}) {
-    list.add("budget", percent(tolerance), fmt::format("tolerance_percent = {:.1f}\n", tolerance),
+    list.add("budget", tolerance_text(tolerance),
+             fmt::format("tolerance_percent = {:.1f}\n", tolerance),
              {.tolerance_pct = tolerance, .method = {}, .mirrors = {}, .partition = {}});
   }
   for (const double mu : {4.0, 1.0}) {
@@ -295,13 +289,13 @@ void add_fly_through_stage(const LitScene& lit, const ChartView& view, std::uint
       {fmt::format("{} frames, each rendered by itself", kFrames), {4.0, 2.0, 1.0}, direct});
   const std::size_t reference = references.size() - 1;
   for (const double tolerance : {20.0, 10.0, 5.0, 2.0}) {
-    settings.push_back({"fly-through", "frame by frame", percent(tolerance), "", reference,
+    settings.push_back({"fly-through", "frame by frame", tolerance_text(tolerance), "", reference,
                         [direct, tolerance, seed](Progress& progress) {
                           return direct(tolerance, seed, progress);
                         }});
   }
   for (const double tolerance : {20.0, 10.0, 5.0, 2.0}) {
-    settings.push_back({"fly-through", "points", percent(tolerance), "", reference,
+    settings.push_back({"fly-through", "points", tolerance_text(tolerance), "", reference,
                         [&lit, frames, tone, tolerance, seed](Progress& progress) {
                           return played(lit, frames, tolerance, seed, *tone, progress);
                         }});

@@ -50,7 +50,7 @@ void add_reflection_stage(const LitScene& lit, const Sensors& sensors, std::uint
                         }});
   };
   const auto by_tolerance = [&](const char* name, Reflection how, double tolerance) {
-    add(name, fmt::format("{:g} %", tolerance),
+    add(name, tolerance_text(tolerance),
         fmt::format("reflection = \"{}\"\ntolerance_percent = {:.1f}\n", name, tolerance),
         {.how = how, .tolerance_pct = tolerance});
   };

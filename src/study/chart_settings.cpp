@@ -21,16 +21,6 @@ namespace {
 
 constexpr double kDirectOfInteriors = 1.0;  // percent, tolerance of the direct light in rooms
 
-DaylightSource source_with(const LitScene& lit, const std::optional<PartitionRequest>& partition) {
-  DaylightSource source = daylight_of(lit.sky());
-  if (partition && lit.sky().model) {
-    const SkyModel& model = *lit.sky().model;
-    source.elements = std::make_unique<ElementSky>(model, partition_sky(model, *partition));
-    source.partition = partition;
-  }
-  return source;
-}
-
 /// Direct light of one way.
 struct DirectWay {
   EngineChoice engine = EngineChoice::Rays;
@@ -42,7 +32,7 @@ struct DirectWay {
 
 SensorValues direct_light(const LitScene& lit, const Sensors& sensors, const DirectWay& way,
                           std::uint64_t seed, Progress& progress) {
-  const DaylightSource source = source_with(lit, way.partition);
+  const DaylightSource source = daylight_of(lit.sky(), way.partition);
   IlluminanceOptions how;
   how.tolerance_pct = way.tolerance_pct;
   how.bounces = 0;
@@ -62,8 +52,6 @@ PartitionRequest elements(PartitionMethod method, std::size_t count) {
   request.elements = count;
   return request;
 }
-
-std::string percent(double tolerance) { return fmt::format("{:g} %", tolerance); }
 
 /// How an interior is solved.
 struct InteriorWay {
@@ -173,7 +161,7 @@ void ChartSettings::add_sky() {
     by_elements(name, parse_partition(name), "as published", "");
   }
   for (const double tolerance : {20.0, 10.0, 5.0, 2.0, 1.0}) {
-    add("slices", percent(tolerance),
+    add("slices", tolerance_text(tolerance),
         fmt::format("engine = \"rays\"\ntolerance_percent = {:.1f}\n", tolerance),
         {.tolerance_pct = tolerance, .by_slices = true});
   }
@@ -202,7 +190,7 @@ void ChartSettings::add_visibility() {
 void ChartSettings::add_detail() {
   for (const double tolerance : {20.0, 10.0, 5.0, 2.0, 1.0}) {
     const DirectWay way{.engine = EngineChoice::Auto, .tolerance_pct = tolerance};
-    settings_.push_back({"lod", "budget", percent(tolerance),
+    settings_.push_back({"lod", "budget", tolerance_text(tolerance),
                          fmt::format("tolerance_percent = {:.1f}\n", tolerance),
                          references_.size() - 1, [this, way](Progress& progress) {
                            return direct_light(lit_, sensors_, way, seed_, progress);
@@ -263,7 +251,7 @@ void ChartSettings::add_interior_reference() {
                              how.tolerance_pct = kDirectOfInteriors;
                              how.bounces = 0;
                              how.seed = seed_;
-                             const DaylightSource source = source_with(lit_, std::nullopt);
+                             const DaylightSource source = daylight_of(lit_.sky());
                              direct_->values =
                                  illuminate(sensors_, lit_.rays(), source, how, progress).values;
                            });
@@ -296,7 +284,7 @@ void ChartSettings::add_meshes() {
       const InteriorWay way{.mesher = mesher, .tolerance_pct = tolerance};
       const bool is_default = mesher == Mesher::Uniform;
       settings_.push_back(
-          {"mesh", name, percent(tolerance),
+          {"mesh", name, tolerance_text(tolerance),
            is_default
                ? fmt::format("reflection = \"radiosity\"\ntolerance_percent = {:.1f}\n", tolerance)
                : "",

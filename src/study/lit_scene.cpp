@@ -70,12 +70,7 @@ LitScene::LitScene(const std::filesystem::path& file, const ReadOptions& options
   engines_ = std::make_unique<Engines>(*soup_, scene_.materials, gl);
   progress.end(std::to_string(soup_->size()) + " triangles");
   sky_ = make_sky(site());
-  source_ = daylight_of(sky_);
-  if (sky_.model && partition) {
-    source_.elements =
-        std::make_unique<ElementSky>(*sky_.model, partition_sky(*sky_.model, *partition));
-  }
-  source_.partition = partition;
+  source_ = daylight_of(sky_, partition);
 }
 
 std::optional<Location> LitScene::site() const {

@@ -1,5 +1,7 @@
 #include "study/speed_accuracy.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -271,6 +273,8 @@ void rank_stage(std::vector<ChartPoint*>& points) {
 }
 
 }  // namespace
+
+std::string tolerance_text(double tolerance_pct) { return fmt::format("{:g} %", tolerance_pct); }
 
 SensorValues values_of(const SensorIlluminance& found) {
   SensorValues values;

@@ -26,6 +26,9 @@ struct SensorValues {
 
 SensorValues values_of(const SensorIlluminance& found);
 
+/// A tolerance as the setting of a method, `5 %`.
+std::string tolerance_text(double tolerance_pct);
+
 /// One way to calculate, at one setting.
 struct ChartSetting {
   std::string stage;    ///< of `chart_stages`

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/parallel.h"
 
@@ -56,17 +57,11 @@ std::vector<std::uint32_t> scattered_sky(const ShadingPoints& points,
 }
 
 void smooth_sky(const ShadingPoints& points, SensorIlluminance& light) {
-  const std::vector<double> sky = light.sky_lux;
-  parallel_for(points.sensors.size(), 1024, [&](IndexRange range) {
-    for (std::size_t i = range.begin; i < range.end; ++i) {
-      double sum = 0.0, weight = 0.0;
-      points.for_each_near(i, 1, [&](std::size_t k, double w) {
-        sum += w * sky[k];
-        weight += w;
-      });
-      light.sky_lux[i] = sum / weight;
-    }
+  std::vector<double> mean(points.sensors.size());
+  parallel_for(mean.size(), 1024, [&](IndexRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) mean[i] = Around(points, light, i).mean();
   });
+  light.sky_lux = std::move(mean);
 }
 
 }  // namespace tenku

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -18,6 +17,7 @@
 
 #include "cli/lit_scene_files.h"
 #include "core/random.h"
+#include "support/long_runs.h"
 #include "support/run_program.h"
 
 namespace tenku {
@@ -26,15 +26,6 @@ namespace {
 namespace fs = std::filesystem;
 using namespace testing_support;
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-double number_of(const char* variable, double otherwise) {
-  const char* text = std::getenv(variable);
-  return text == nullptr ? otherwise : std::strtod(text, nullptr);
-}
 
 const char* const kStudy =
     "[scene]\nfile = \"box.obj\"\n[sun]\naltitude_deg = 40\nazimuth_deg = 180\n"

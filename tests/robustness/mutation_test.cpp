@@ -20,20 +20,14 @@
 #include "tests/scene/gltf_texts.h"
 #include "tests/scene/honeybee_texts.h"
 #include "tests/scene/tile_texts.h"
+#include "tests/support/long_runs.h"
 
 namespace tenku {
 namespace {
 
+using testing_support::number_of;
+using testing_support::seconds_since;
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-double number_of(const char* variable, double otherwise) {
-  const char* text = std::getenv(variable);
-  return text == nullptr ? otherwise : std::strtod(text, nullptr);
-}
 
 struct Sample {
   std::string name, text;
