@@ -7,12 +7,9 @@
 #include <memory>
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace tenku {
 
+class OptionList;
 class Progress;
 
 /// Exit codes of the contract.
@@ -36,19 +33,19 @@ struct CommandContext {
 /// (exit 2), ResourceError or anything else (exit 1).
 using CommandBody = std::function<int(const CommandContext&)>;
 
-CommandBody make_sun_command(CLI::App& app);
-CommandBody make_sky_command(CLI::App& app);
-CommandBody make_inspect_command(CLI::App& app);
-CommandBody make_illuminance_command(CLI::App& app);
-CommandBody make_plan_command(CLI::App& app);
-CommandBody make_render_command(CLI::App& app);
-CommandBody make_radiosity_command(CLI::App& app);
-CommandBody make_form_factors_command(CLI::App& app);
-CommandBody make_reflections_command(CLI::App& app);
-CommandBody make_chart_command(CLI::App& app);
-CommandBody make_flythrough_command(CLI::App& app);
-CommandBody make_play_command(CLI::App& app);
-CommandBody make_run_command(CLI::App& app);
+CommandBody make_sun_command(OptionList& app);
+CommandBody make_sky_command(OptionList& app);
+CommandBody make_inspect_command(OptionList& app);
+CommandBody make_illuminance_command(OptionList& app);
+CommandBody make_plan_command(OptionList& app);
+CommandBody make_render_command(OptionList& app);
+CommandBody make_radiosity_command(OptionList& app);
+CommandBody make_form_factors_command(OptionList& app);
+CommandBody make_reflections_command(OptionList& app);
+CommandBody make_chart_command(OptionList& app);
+CommandBody make_flythrough_command(OptionList& app);
+CommandBody make_play_command(OptionList& app);
+CommandBody make_run_command(OptionList& app);
 
 /// Writes one line to standard error unless `--quiet`.
 void say(const CommonOptions& options, const std::string& line);

@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
 #include "cli/lit_scene_options.h"
+#include "cli/option_list.h"
 #include "cli/sensor_options.h"
 #include "cli/view_options.h"
 #include "core/error.h"
@@ -141,7 +141,7 @@ int chart(const ChartOptions& options, const CommandContext& context) {
 
 }  // namespace
 
-CommandBody make_chart_command(CLI::App& app) {
+CommandBody make_chart_command(OptionList& app) {
   const auto options = std::make_shared<ChartOptions>();  // outlives this call
   add_scene_options(app, options->lit.scene);
   add_site_options(app, options->lit.site);
@@ -153,9 +153,9 @@ CommandBody make_chart_command(CLI::App& app) {
   app.add_option("--stage", options->stages,
                  "sky, visibility, lod, reflections, form-factors, mesh, picture, mirrors, "
                  "fly-through, several with commas, or all (default all)")
-      ->delimiter(',');
+      .split_at(',');
   app.add_option("--budget", options->budget, "time that it may take, 120s or 2m (default 120s)");
-  app.add_option("--out", options->lit.out, "folder to write into")->required();
+  app.add_option("--out", options->lit.out, "folder to write into").required();
   return [options](const CommandContext& context) { return chart(*options, context); };
 }
 

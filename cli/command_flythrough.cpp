@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -8,6 +7,7 @@
 #include "cli/command.h"
 #include "cli/finding_json.h"
 #include "cli/lit_scene_options.h"
+#include "cli/option_list.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/version.h"
@@ -34,8 +34,13 @@ struct FlyThroughOptions {
 /// What must be as it was for a store to fit the scene.
 std::vector<std::array<std::string, 2>> scene_settings(const LitSceneOptions& how) {
   const std::string& materials = how.scene.materials;
+  std::string terrain;
+  for (const std::string& file : how.scene.terrain) terrain += sha256_of_file(file) + " ";
+  if (!terrain.empty())
+    terrain += fmt::format("{} {:g} %", how.scene.on_terrain, how.tolerance_pct);
   return {{"materials_sha256", materials.empty() ? "" : sha256_of_file(materials)},
           {"ground", how.scene.ground},
+          {"terrain", terrain},
           {"building_lod", how.scene.building_lod}};
 }
 
@@ -185,10 +190,10 @@ int export_store(const FlyThroughOptions& options) {
 
 }  // namespace
 
-CommandBody make_flythrough_command(CLI::App& app) {
+CommandBody make_flythrough_command(OptionList& app) {
   const auto options = std::make_shared<FlyThroughOptions>();  // outlives this call
   add_lit_scene_options(app, options->lit);
-  app.get_option("SCENE")->required(false);  // a store that is relit knows its own
+  app.get_option("SCENE").required(false);  // a store that is relit knows its own
   app.add_option("--out", options->lit.out, "store to write (.tkpts)");
   app.add_option("--path", options->path, "camera path (TOML): keys with time, eye and target");
   app.add_flag("--resume", options->resume,

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <map>
 #include <optional>
@@ -8,6 +7,7 @@
 #include "cli/command.h"
 #include "cli/finding_json.h"
 #include "cli/lit_scene_options.h"
+#include "cli/option_list.h"
 #include "cli/scene_options.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
@@ -174,7 +174,7 @@ int form_factors(const FormFactorCommandOptions& options, const CommandContext& 
 
 }  // namespace
 
-CommandBody make_form_factors_command(CLI::App& app) {
+CommandBody make_form_factors_command(OptionList& app) {
   const auto options = std::make_shared<FormFactorCommandOptions>();  // outlives this call
   add_scene_options(app, options->scene);
   app.add_option("--method", options->method,
@@ -182,7 +182,7 @@ CommandBody make_form_factors_command(CLI::App& app) {
                  "(default)");
   app.add_option("--out", options->out,
                  "CSV table from,to,form_factor,error; - for standard output")
-      ->required();
+      .required();
   app.add_flag("--two-sided", options->two_sided, "let every polygon see from both faces");
   app.add_option("--resolution", options->resolution,
                  "lines of the disc, or pixels along the edge of the hemicube (default 512)");

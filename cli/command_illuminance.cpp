@@ -1,17 +1,18 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <filesystem>
 
 #include "cli/command.h"
 #include "cli/lit_scene_options.h"
+#include "cli/option_list.h"
 #include "cli/sensor_options.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "output/field_writer.h"
 #include "output/table_writer.h"
 #include "study/illuminance_field.h"
+#include "study/map_results.h"
 #include "study/scene_reflection.h"
 #include "study/surface_results.h"
 
@@ -25,19 +26,34 @@ struct IlluminanceCommandOptions {
 };
 
 bool is_city_file(const std::string& out) { return out.ends_with(".json"); }
+bool is_raster(const std::string& out) { return out.ends_with(".tif") || out.ends_with(".tiff"); }
+bool is_map(const std::string& out) { return is_raster(out) || out.ends_with(".gpkg"); }
 
 void check_request(const IlluminanceCommandOptions& options) {
   check_sensor_options(options.sensors);
   const std::string& out = options.lit.out;
-  const bool is_model = is_city_file(out) || out.ends_with(".glb");
+  const bool is_model = is_city_file(out) || out.ends_with(".glb") || is_map(out);
   if (out != "-" && !out.ends_with(".csv") && !out.ends_with(".vtp") && !is_model) {
     throw InputError("cannot write '" + out +
-                     "': the ending must be .csv, .vtp, .city.json or .glb");
+                     "': the ending must be .csv, .vtp, .city.json, .glb, .tif or .gpkg");
   }
   if (is_model && options.sensors.grid.empty()) {
     throw InputError("values on surfaces (" + out + ") need sensors on surfaces: give --grid");
   }
   check_can_write(out);
+}
+
+void write_map(const IlluminanceCommandOptions& options, const LitScene& lit,
+               const PlacedSensors& placed, const IlluminanceResult& result) {
+  AtomicFile file(options.lit.out);
+  if (is_raster(options.lit.out)) {
+    map_writer().write_raster(
+        file.path(), raster_of_grid(lit, *placed.grid, result.values, options.sensors.spacing_m));
+  } else {
+    map_writer().write_layers(file.path(), map_crs(lit),
+                              layers_of_grid(lit, *placed.grid, result.values));
+  }
+  file.commit();
 }
 
 void write_result(const IlluminanceCommandOptions& options, const LitScene& lit,
@@ -46,6 +62,7 @@ void write_result(const IlluminanceCommandOptions& options, const LitScene& lit,
   if (is_city_file(out)) {
     return write_whole_file(out, cityjson_of_grid(lit, *placed.grid, result.values));
   }
+  if (is_map(out)) return write_map(options, lit, placed, result);
   if (out.ends_with(".glb")) {
     return write_whole_file(out, glb_of_grid(lit, *placed.grid, result.values));
   }
@@ -94,7 +111,7 @@ int illuminance(const IlluminanceCommandOptions& options, const CommandContext& 
 
 }  // namespace
 
-CommandBody make_illuminance_command(CLI::App& app) {
+CommandBody make_illuminance_command(OptionList& app) {
   const auto options = std::make_shared<IlluminanceCommandOptions>();  // outlives this call
   add_lit_scene_options(app, options->lit);
   add_out_option(app, options->lit);

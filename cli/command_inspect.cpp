@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -9,6 +8,7 @@
 
 #include "cli/command.h"
 #include "cli/finding_json.h"
+#include "cli/option_list.h"
 #include "cli/scene_options.h"
 #include "cli/store_inspection.h"
 #include "core/atomic_file.h"
@@ -209,7 +209,7 @@ int inspect(const InspectOptions& options, const CommandContext& context) {
 
 }  // namespace
 
-CommandBody make_inspect_command(CLI::App& app) {
+CommandBody make_inspect_command(OptionList& app) {
   const auto options =
       std::make_shared<InspectOptions>();  // shared with the body, which outlives us
   add_scene_options(app, options->scene);

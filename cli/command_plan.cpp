@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
 #include "cli/lit_scene_options.h"
+#include "cli/option_list.h"
 #include "cli/plan_output.h"
 #include "cli/sensor_options.h"
 #include "cli/view_options.h"
@@ -78,7 +78,7 @@ int plan(const PlanOptions& options, const CommandContext& context) {
 
 }  // namespace
 
-CommandBody make_plan_command(CLI::App& app) {
+CommandBody make_plan_command(OptionList& app) {
   const auto options = std::make_shared<PlanOptions>();  // outlives this call
   add_lit_scene_options(app, options->lit);
   add_sensor_options(app, options->sensors);

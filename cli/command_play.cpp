@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "cli/command.h"
+#include "cli/option_list.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "flythrough/playback.h"
@@ -181,12 +181,12 @@ int play(const PlayOptions& options, const CommandContext& context) {
 
 }  // namespace
 
-CommandBody make_play_command(CLI::App& app) {
+CommandBody make_play_command(OptionList& app) {
   const auto options = std::make_shared<PlayOptions>();  // outlives this call
-  app.add_option("STORE", options->store, "store of points (.tkpts, or .tkpts.part)")->required();
+  app.add_option("STORE", options->store, "store of points (.tkpts, or .tkpts.part)").required();
   app.add_option("--out", options->out,
                  "folder for frames, a film .mp4 (needs ffmpeg), or one web page .html")
-      ->required();
+      .required();
   app.add_option("--format", options->format, "frames as png or exr, cd/m2 (default png)");
   app.add_option("--width", options->request.width, "pixels; default as gathered");
   app.add_option("--height", options->request.height, "pixels; default as gathered");

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -10,6 +9,7 @@
 #include "cli/command.h"
 #include "cli/lit_scene_options.h"
 #include "cli/mesh_options.h"
+#include "cli/option_list.h"
 #include "cli/sky_rows.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
@@ -325,9 +325,9 @@ class RadiosityRun {
   std::size_t missed_ = 0;
 };
 
-void add_radiosity_options(CLI::App& app, RadiosityCommandOptions& o) {
+void add_radiosity_options(OptionList& app, RadiosityCommandOptions& o) {
   add_lit_scene_options(app, o.lit);
-  app.remove_option(app.get_option("--bounces"));  // all of them are followed
+  app.remove_option("--bounces");  // all of them are followed
   add_out_option(app, o.lit);
   app.add_option("--form-factors", o.form_factors,
                  "method of the form factors (default hemisphere-rays)");
@@ -350,7 +350,7 @@ void add_radiosity_options(CLI::App& app, RadiosityCommandOptions& o) {
 
 }  // namespace
 
-CommandBody make_radiosity_command(CLI::App& app) {
+CommandBody make_radiosity_command(OptionList& app) {
   const auto options = std::make_shared<RadiosityCommandOptions>();  // outlives this call
   add_radiosity_options(app, *options);
   return [options](const CommandContext& context) {

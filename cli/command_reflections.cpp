@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
 #include "cli/lit_scene_options.h"
+#include "cli/option_list.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/stopwatch.h"
@@ -250,11 +250,11 @@ class ReflectionsRun {
   std::vector<Finding> findings_;
 };
 
-void add_options(CLI::App& app, ReflectionsCommandOptions& o) {
+void add_options(OptionList& app, ReflectionsCommandOptions& o) {
   add_scene_options(app, o.scene);
   add_site_options(app, o.site);
   add_sky_options(app, o.sky);
-  app.get_option("--sky")->description(
+  app.get_option("--sky").description(
       "cie:1 .. cie:15 (default cie:12, clear), perez:DNI,DHI (W/m2), weather:FILE.epw or "
       "FILE.wea: the sun "
       "is the sky's");
@@ -283,7 +283,7 @@ void add_options(CLI::App& app, ReflectionsCommandOptions& o) {
 
 }  // namespace
 
-CommandBody make_reflections_command(CLI::App& app) {
+CommandBody make_reflections_command(OptionList& app) {
   const auto options = std::make_shared<ReflectionsCommandOptions>();  // outlives this call
   add_options(app, *options);
   return [options](const CommandContext& context) {

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
 
 #include "cli/command.h"
 #include "cli/lit_scene_options.h"
+#include "cli/option_list.h"
 #include "cli/view_options.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
@@ -69,7 +69,7 @@ int render(const RenderOptions& options, const CommandContext& context) {
 
 }  // namespace
 
-CommandBody make_render_command(CLI::App& app) {
+CommandBody make_render_command(OptionList& app) {
   const auto options = std::make_shared<RenderOptions>();  // outlives this call
   add_lit_scene_options(app, options->lit);
   add_out_option(app, options->lit);

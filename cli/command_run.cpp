@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
 #include "cli/lit_scene_options.h"
+#include "cli/option_list.h"
 #include "study/run_study.h"
 #include "study/study_reader.h"
 #include "study/time_limit.h"
@@ -59,10 +59,10 @@ int run(RunOptions options, const CommandContext& context) {
 
 }  // namespace
 
-CommandBody make_run_command(CLI::App& app) {
+CommandBody make_run_command(OptionList& app) {
   const auto options = std::make_shared<RunOptions>();  // outlives this call
-  app.add_option("study", options->study, "study file (TOML)")->required();
-  app.add_option("--out", options->out, "folder for the results; made if need be")->required();
+  app.add_option("study", options->study, "study file (TOML)").required();
+  app.add_option("--out", options->out, "folder for the results; made if need be").required();
   app.add_option("--scene", options->scene, "scene file in place of the study's");
   app.add_option("--time", options->overrides.time, "time in place of the study's");
   app.add_option("--time-limit", options->time_limit,

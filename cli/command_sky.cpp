@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iterator>
 
 #include "cli/command.h"
 #include "cli/finding_json.h"
+#include "cli/option_list.h"
 #include "cli/partition_options.h"
 #include "cli/sky_options.h"
 #include "core/atomic_file.h"
@@ -126,7 +126,7 @@ int run_sky(const SkyCommandOptions& o, const CommandContext& context) {
 
 }  // namespace
 
-CommandBody make_sky_command(CLI::App& app) {
+CommandBody make_sky_command(OptionList& app) {
   auto options = std::make_shared<SkyCommandOptions>();
   add_site_options(app, options->site);
   add_sky_options(app, options->sky);

@@ -1,8 +1,7 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-
 #include "cli/command.h"
+#include "cli/option_list.h"
 #include "cli/sky_options.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
@@ -127,7 +126,7 @@ int run_single(const SunCommandOptions& o, const CommandContext& context) {
 
 }  // namespace
 
-CommandBody make_sun_command(CLI::App& app) {
+CommandBody make_sun_command(OptionList& app) {
   auto options = std::make_shared<SunCommandOptions>();
   add_site_options(app, options->site);
   app.add_option("--times", options->times,

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "cli/option_list.h"
 #include "cli/plan_output.h"
 #include "core/error.h"
 #include "illuminance/wide_texels.h"
@@ -30,7 +30,7 @@ IlluminanceOptions illuminance_options(const LitSceneOptions& options,
   return how;
 }
 
-void add_lit_scene_options(CLI::App& app, LitSceneOptions& options) {
+void add_lit_scene_options(OptionList& app, LitSceneOptions& options) {
   add_scene_options(app, options.scene);
   add_site_options(app, options.site);
   add_sky_options(app, options.sky);
@@ -51,8 +51,8 @@ void add_lit_scene_options(CLI::App& app, LitSceneOptions& options) {
                  "with --lod paper, the error that a polygon may have, in pixels (default 1)");
 }
 
-void add_out_option(CLI::App& app, LitSceneOptions& options) {
-  app.add_option("--out", options.out, "file to write; - for standard output")->required();
+void add_out_option(OptionList& app, LitSceneOptions& options) {
+  app.add_option("--out", options.out, "file to write; - for standard output").required();
 }
 
 LitScene load_lit_scene(const LitSceneOptions& options, Progress& progress) {
@@ -61,6 +61,7 @@ LitScene load_lit_scene(const LitSceneOptions& options, Progress& progress) {
   std::optional<PartitionRequest> partition;
   if (options.partition.is_given()) partition = resolve_partition(options.partition);
   ReadOptions read = read_options(options.scene);
+  read.tolerance_pct = options.tolerance_pct;
   if (options.site.latitude_deg) read.site = resolve_location(options.site, std::nullopt);
   const auto make_sky = [&](const std::optional<Location>& scene_site) {
     return resolve_sky(options.site, options.sky, scene_site);

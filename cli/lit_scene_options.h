@@ -18,6 +18,8 @@
 
 namespace tenku {
 
+class OptionList;
+
 /// Scene, site, sky, and how well to calculate.
 struct LitSceneOptions {
   SceneOptions scene;
@@ -31,9 +33,9 @@ struct LitSceneOptions {
 };
 
 /// All but `--out`.
-void add_lit_scene_options(CLI::App& app, LitSceneOptions& options);
+void add_lit_scene_options(OptionList& app, LitSceneOptions& options);
 /// `--out`, which must be given.
-void add_out_option(CLI::App& app, LitSceneOptions& options);
+void add_out_option(OptionList& app, LitSceneOptions& options);
 
 /// @throws InputError, ResourceError as the readers, the sky and the engine do
 LitScene load_lit_scene(const LitSceneOptions& options, Progress& progress);

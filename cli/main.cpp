@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/option_list.h"
 #include "cli/terminal_progress.h"
 #include "core/error.h"
 #include "core/parallel.h"
@@ -19,7 +20,7 @@ struct CommandEntry {
   const char* name;
   const char* description;
   const char* example;
-  CommandBody (*make)(CLI::App&);
+  CommandBody (*make)(OptionList&);
 };
 
 std::vector<CommandEntry> commands() {
@@ -28,7 +29,7 @@ std::vector<CommandEntry> commands() {
   };
 }
 
-void add_common_options(CLI::App& app, CommonOptions& options) {
+void add_common_options(OptionList& app, CommonOptions& options) {
   app.add_option("--threads", options.threads, "threads to use (default: all)");
   app.add_option("--seed", options.seed, "seed of the random numbers (default 1)");
   app.add_flag("--quiet", options.quiet, "print nothing but errors");
@@ -78,8 +79,9 @@ int main_with(int argc, char** argv) {
   for (const CommandEntry& entry : commands()) {
     CLI::App* command = app.add_subcommand(entry.name, entry.description);
     command->footer(std::string("Example:\n  ") + entry.example);
-    add_common_options(*command, options);
-    bodies[command] = entry.make(*command);
+    OptionList list(*command);
+    add_common_options(list, options);
+    bodies[command] = entry.make(list);
   }
   try {
     app.parse(argc, argv);

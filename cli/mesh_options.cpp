@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <optional>
 
+#include "cli/option_list.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "study/mesh_report.h"
@@ -43,7 +43,7 @@ std::optional<Vec3> sun_of(const LitScene& lit) {
 
 }  // namespace
 
-void add_mesh_options(CLI::App& app, RadiosityMeshOptions& o) {
+void add_mesh_options(OptionList& app, RadiosityMeshOptions& o) {
   app.add_option("--mesh", o.mesh,
                  "how surfaces are divided: uniform, refine (split where neighbours differ), or "
                  "bubble (made anew to suit the light)");

@@ -11,6 +11,8 @@
 
 namespace tenku {
 
+class OptionList;
+
 /// As given on the command line; lengths in metres, 0 where they are to be chosen.
 struct RadiosityMeshOptions {
   std::string mesh = "uniform";
@@ -21,7 +23,7 @@ struct RadiosityMeshOptions {
   bool shadow_edges = false;
 };
 
-void add_mesh_options(CLI::App& app, RadiosityMeshOptions& options);
+void add_mesh_options(OptionList& app, RadiosityMeshOptions& options);
 
 /// @throws InputError  a mesh that is not known, options that it does not take
 void check_mesh_options(const RadiosityMeshOptions& options);

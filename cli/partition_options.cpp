@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-
+#include "cli/option_list.h"
 #include "core/error.h"
 
 namespace tenku {
 
-void add_partition_options(CLI::App& app, PartitionOptions& o, const std::string& otherwise) {
+void add_partition_options(OptionList& app, PartitionOptions& o, const std::string& otherwise) {
   app.add_option(
       "--partition", o.partition,
       "elements of the sky: adaptive, energy, uniform, tregenza, reinhart:1 .. reinhart:6 "

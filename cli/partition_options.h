@@ -6,11 +6,9 @@
 
 #include "sky_models/sky_partition.h"
 
-namespace CLI {
-class App;
-}
-
 namespace tenku {
+
+class OptionList;
 
 /// `--partition`, `--elements`, `--energy-threshold`.
 struct PartitionOptions {
@@ -22,7 +20,8 @@ struct PartitionOptions {
 };
 
 /// @param otherwise  what is done where none of them is given
-void add_partition_options(CLI::App& app, PartitionOptions& options, const std::string& otherwise);
+void add_partition_options(OptionList& app, PartitionOptions& options,
+                           const std::string& otherwise);
 
 /// @throws InputError
 PartitionRequest resolve_partition(const PartitionOptions& options);

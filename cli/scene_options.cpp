@@ -1,8 +1,8 @@
 #include "cli/scene_options.h"
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 
+#include "cli/option_list.h"
 #include "core/error.h"
 
 namespace tenku {
@@ -17,12 +17,12 @@ UpAxis up_axis(const std::string& text) {
 
 }  // namespace
 
-void add_scene_options(CLI::App& app, SceneOptions& options) {
+void add_scene_options(OptionList& app, SceneOptions& options) {
   app.add_option(
          "SCENE", options.scene,
          "scene file (.city.json, .city.jsonl, .gml, .obj, .gltf, .glb, .hbjson, .ply, .stl, "
          ".rad, also with .gz) or folder of tiles")
-      ->required();
+      .required();
   app.add_option("--materials", options.materials, "TOML file of materials by name");
   app.add_option("--rotate", options.rotate_deg, "turn the model clockwise by degrees");
   app.add_option("--scale", options.scale, "metres per unit of the file (default 1)");
@@ -31,6 +31,12 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
                  "coordinate reference system of the file, such as EPSG:6677");
   app.add_option("--ground", options.ground,
                  "auto (under a city without terrain), none, or a height of the file");
+  app.add_option("--terrain", options.terrain,
+                 "GeoTIFF of heights under and around the scene; may be given again")
+      .given_again();
+  app.add_option(
+      "--on-terrain", options.on_terrain,
+      "auto (moves buildings onto the terrain if all stand at one height), keep or move");
   app.add_flag("--strict", options.strict,
                "refuse a scene of which something would be mended, left out or guessed");
   app.add_option("--building-lod", options.building_lod,
@@ -46,6 +52,8 @@ ReadOptions read_options(const SceneOptions& options) {
   read.up = up_axis(options.up);
   read.crs = options.crs;
   read.ground = GroundChoice::parse(options.ground);
+  read.terrain.assign(options.terrain.begin(), options.terrain.end());
+  read.on_terrain = on_terrain_named(options.on_terrain);
   read.strict = options.strict;
   if (!options.materials.empty()) read.materials = options.materials;
   return read;

@@ -2,14 +2,13 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "scene/read_scene.h"
 
-namespace CLI {
-class App;
-}
-
 namespace tenku {
+
+class OptionList;
 
 struct SceneOptions {
   std::string scene;        ///< path of the scene file
@@ -17,11 +16,13 @@ struct SceneOptions {
   std::string up = "auto";  ///< `auto`, `y` or `z`
   std::string crs, ground = "auto", building_lod;
   double rotate_deg = 0.0, scale = 1.0;
+  std::vector<std::string> terrain;  ///< paths
+  std::string on_terrain = "auto";
   bool strict = false;
 };
 
 /// Registers the positional SCENE and the options on a subcommand.
-void add_scene_options(CLI::App& app, SceneOptions& options);
+void add_scene_options(OptionList& app, SceneOptions& options);
 
 /// @throws InputError if a text is none of its choices
 ReadOptions read_options(const SceneOptions& options);

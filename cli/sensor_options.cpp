@@ -1,8 +1,8 @@
 #include "cli/sensor_options.h"
 
-#include <CLI/CLI.hpp>
 #include <vector>
 
+#include "cli/option_list.h"
 #include "core/error.h"
 #include "output/sensor_file.h"
 
@@ -21,7 +21,7 @@ std::vector<std::string> words_of(const std::string& list) {
 
 }  // namespace
 
-void add_sensor_options(CLI::App& app, SensorOptions& options) {
+void add_sensor_options(OptionList& app, SensorOptions& options) {
   app.add_option("--sensors", options.sensors,
                  "sensors: x y z nx ny nz a line; - for standard input");
   app.add_option("--grid", options.grid, "surfaces to cover: ground,roofs,walls");

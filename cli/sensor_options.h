@@ -6,11 +6,9 @@
 
 #include "study/lit_scene.h"
 
-namespace CLI {
-class App;
-}
-
 namespace tenku {
+
+class OptionList;
 
 /// `--sensors`, `--grid`, `--spacing`.
 struct SensorOptions {
@@ -20,7 +18,7 @@ struct SensorOptions {
   bool is_given() const { return !sensors.empty() || !grid.empty(); }
 };
 
-void add_sensor_options(CLI::App& app, SensorOptions& options);
+void add_sensor_options(OptionList& app, SensorOptions& options);
 
 /// @throws InputError unless one of the two ways is given
 void check_sensor_options(const SensorOptions& options);

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 
+#include "cli/option_list.h"
 #include "core/error.h"
 
 namespace tenku {
@@ -37,7 +37,7 @@ std::optional<Illuminance> lux(const std::optional<double>& value) {
 
 }  // namespace
 
-void add_site_options(CLI::App& app, SiteOptions& o) {
+void add_site_options(OptionList& app, SiteOptions& o) {
   app.add_option("--lat", o.latitude_deg, "latitude of the site, degrees, north positive");
   app.add_option("--lon", o.longitude_deg, "longitude of the site, degrees, east positive");
   app.add_option("--elevation", o.elevation_m, "height above the ellipsoid, metres (default 0)");
@@ -53,7 +53,7 @@ void add_site_options(CLI::App& app, SiteOptions& o) {
   app.add_flag("--no-refraction", o.no_refraction, "leave refraction out");
 }
 
-void add_sky_options(CLI::App& app, SkyOptions& o) {
+void add_sky_options(OptionList& app, SkyOptions& o) {
   app.add_option("--sky", o.model,
                  "uniform, cie-overcast (default), cie:1 .. cie:15, perez:DNI,DHI (W/m2), "
                  "weather:FILE.epw or FILE.wea, image:FILE.hdr, none");

@@ -9,11 +9,9 @@
 #include "site/sun_position.h"
 #include "sky_models/make_sky.h"
 
-namespace CLI {
-class App;
-}
-
 namespace tenku {
+
+class OptionList;
 
 /// `--lat --lon --elevation --time --zone --sun-altitude --sun-azimuth`
 /// `--pressure --temperature --no-refraction`.
@@ -32,8 +30,8 @@ struct SkyOptions {
   double image_rotation_deg = 0.0;
 };
 
-void add_site_options(CLI::App& app, SiteOptions& options);
-void add_sky_options(CLI::App& app, SkyOptions& options);
+void add_site_options(OptionList& app, SiteOptions& options);
+void add_sky_options(OptionList& app, SkyOptions& options);
 
 /// Site by the options, or else the scene's; each of `--lat --lon --elevation` replaces its part.
 /// None if neither says.

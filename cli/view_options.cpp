@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <tuple>
 #include <utility>
 
+#include "cli/option_list.h"
 #include "core/error.h"
 #include "study/view_output.h"
 
@@ -54,7 +54,7 @@ void check_view_options(const ViewOptions& options) {
   }
 }
 
-void add_camera_options(CLI::App& app, ViewOptions& options, const std::string& size) {
+void add_camera_options(OptionList& app, ViewOptions& options, const std::string& size) {
   options.size = size;
   app.add_option("--eye", options.eye, "where the camera is: E,N,U in the scene's coordinates");
   app.add_option("--target", options.target, "what it looks at: E,N,U");
@@ -62,7 +62,7 @@ void add_camera_options(CLI::App& app, ViewOptions& options, const std::string& 
   app.add_option("--size", options.size, fmt::format("pixels, WIDTHxHEIGHT (default {})", size));
 }
 
-void add_view_options(CLI::App& app, ViewOptions& options) {
+void add_view_options(OptionList& app, ViewOptions& options) {
   add_camera_options(app, options, options.size);
   app.add_option("--mirrors", options.mirrors,
                  "how mirrors are followed: auto, beams, rays or off (default auto)");

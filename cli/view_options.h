@@ -6,11 +6,9 @@
 #include "cli/lit_scene_options.h"
 #include "view/view_render.h"
 
-namespace CLI {
-class App;
-}
-
 namespace tenku {
+
+class OptionList;
 
 /// `--eye`, `--target`, `--fov`, `--size`, `--mirrors`, `--depth`.
 struct ViewOptions {
@@ -19,11 +17,11 @@ struct ViewOptions {
   int depth = MirrorOptions().depth;
 };
 
-void add_view_options(CLI::App& app, ViewOptions& options);
+void add_view_options(OptionList& app, ViewOptions& options);
 
 /// Those that say what is seen alone.
 /// @param size  of the picture, where none is given
-void add_camera_options(CLI::App& app, ViewOptions& options, const std::string& size);
+void add_camera_options(OptionList& app, ViewOptions& options, const std::string& size);
 
 /// Finds before the scene is read what is wrong with the view.
 /// @throws InputError

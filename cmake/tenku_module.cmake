@@ -12,7 +12,9 @@
 
 find_program(TENKU_CCACHE ccache)
 if(TENKU_CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${TENKU_CCACHE})
+  # Else it does not know headers that are compiled ahead.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros
+      ${TENKU_CCACHE})
 endif()
 
 add_library(tenku_options INTERFACE)

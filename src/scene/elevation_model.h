@@ -19,8 +19,6 @@ namespace tenku {
 struct ElevationModel {
   std::size_t rows = 0, columns = 0;
   std::string crs;  ///< `EPSG:3763`; empty if the file names none
-  /// The registry has northing or latitude first in the system of `points`.
-  bool is_northing_first = false;
   std::vector<Vec3> points;
 };
 

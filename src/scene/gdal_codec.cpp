@@ -17,8 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kNoData = std::numeric_limits<double>::quiet_NaN();
-// Two triangles each; more than that no scene of ours has been lit with.
-constexpr std::size_t kMostPixels = 4'000'000;
+constexpr std::size_t kMostPixels = 20'000'000;  // 32 bytes each while they are thinned
 
 struct CloseDataset {
   void operator()(GDALDataset* dataset) const noexcept { GDALClose(dataset); }
@@ -118,7 +117,6 @@ void transform(ElevationModel& model, OGRSpatialReference from, const std::strin
     system->StripVertical();
     system->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   }
-  model.is_northing_first = to.EPSGTreatsAsLatLong() || to.EPSGTreatsAsNorthingEasting();
   if (from.IsSame(&to)) return;
   const std::unique_ptr<OGRCoordinateTransformation> change(
       OGRCreateCoordinateTransformation(&from, &to));
@@ -139,7 +137,7 @@ class GdalCodec final : public ElevationCodec {
     model.rows = static_cast<std::size_t>(band.GetYSize());
     model.columns = static_cast<std::size_t>(band.GetXSize());
     if (model.rows > kMostPixels / model.columns) {
-      refuse(path, "more than 4 million pixels; cut out what can be seen, or take larger pixels");
+      refuse(path, "more than 20 million pixels; cut out what can be seen, or take larger pixels");
     }
     const OGRSpatialReference* system = file->GetSpatialRef();
     if (system) model.crs = name_of(*system);

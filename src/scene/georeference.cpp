@@ -1,5 +1,6 @@
 #include "scene/georeference.h"
 
+#include <fmt/format.h>
 #include <proj.h>
 
 #include <GeographicLib/Geodesic.hpp>
@@ -219,6 +220,11 @@ Georeference Crs::at(Vec3 p) const {
                      ") is too far from the places for which " + id + " is made");
   }
   return where;
+}
+
+std::string map_about(const Location& place) {
+  return fmt::format("+proj=tmerc +lat_0={:.9f} +lon_0={:.9f} +k=1 +ellps=GRS80 +units=m +type=crs",
+                     place.latitude.in_degrees(), place.longitude.in_degrees());
 }
 
 }  // namespace tenku

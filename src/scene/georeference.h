@@ -20,6 +20,9 @@ struct Georeference {
   double metres_per_unit = 1.0;  ///< nominal length of a unit of the grid
 };
 
+/// What PROJ calls the map of a scene in degrees (FileFrame::geographic): metres about a place.
+std::string map_about(const Location& place);
+
 /// A coordinate reference system, ready to be asked about points.
 ///
 /// Source   PROJ with the EPSG registry; azimuths and lengths by C. Karney's geodesics

@@ -4,24 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <limits>
-#include <unordered_map>
-#include <utility>
-#include <vector>
+#include <string>
+
+#include "scene/set_on_ground.h"
 
 namespace tenku {
 namespace {
 
-constexpr double kFoot_m = 0.05;  // of height that counts as one level
 constexpr double kHill_m = 20.0;  // beyond, a level ground is a poor one
 constexpr double kLeastMargin_m = 100.0, kMarginPerHeight = 3.0;
-
-Extent local_extent(const Scene& scene) {
-  Extent box;
-  for (const std::uint32_t v : scene.surfaces.vertex) box.add(scene.vertices[v]);
-  return box;
-}
 
 /// The direction of the file that points up, in units of the file per metre.
 Vec3 file_up(const Scene& scene) { return scene.frame.to_file(kZenith) - scene.frame.to_file({}); }
@@ -35,44 +26,6 @@ double local_height(const Scene& scene, double height) {
   return (height - file_height(scene, {})) / length(file_up(scene));
 }
 
-/// Lets the buildings that stand above the ground reach down to it: feet are the lowest vertices of
-/// each. Returns how many buildings, and the farthest.
-std::pair<std::size_t, double> lower_feet(RawScene& raw, double ground_z) {
-  Scene& scene = raw.scene;
-  Surfaces& surfaces = scene.surfaces;
-  std::vector<double> lowest(scene.objects.size(), std::numeric_limits<double>::infinity());
-  const auto for_each_corner = [&](const auto& visit) {
-    for (std::size_t s = 0; s < surfaces.size(); ++s) {
-      const std::uint32_t object = surfaces.object[s];
-      if (!raw.is_building[object]) continue;
-      const std::size_t end = surfaces.first_vertex[surfaces.first_ring[s + 1]];
-      for (std::size_t k = surfaces.first_vertex[surfaces.first_ring[s]]; k < end; ++k) {
-        visit(object, surfaces.vertex[k]);
-      }
-    }
-  };
-  for_each_corner([&](std::uint32_t object, std::uint32_t vertex) {
-    lowest[object] = std::min(lowest[object], scene.vertices[vertex].z);
-  });
-  std::unordered_map<std::uint64_t, std::uint32_t> foot;  // object and vertex -> its own vertex
-  for_each_corner([&](std::uint32_t object, std::uint32_t& vertex) {
-    const Vec3 at = scene.vertices[vertex];
-    if (lowest[object] < ground_z + kFoot_m || at.z > lowest[object] + kFoot_m) return;
-    const auto [found, is_new] = foot.emplace(std::uint64_t{object} << 32U | vertex,
-                                              static_cast<std::uint32_t>(scene.vertices.size()));
-    if (is_new) scene.vertices.push_back({at.x, at.y, ground_z});
-    vertex = found->second;
-  });
-  std::size_t count = 0;
-  double farthest = 0.0;
-  for (const double z : lowest) {
-    if (!std::isfinite(z) || z < ground_z + kFoot_m) continue;
-    ++count;
-    farthest = std::max(farthest, z - ground_z);
-  }
-  return {count, farthest};
-}
-
 }  // namespace
 
 void add_ground(RawScene& raw, const GroundChoice& choice) {
@@ -80,10 +33,11 @@ void add_ground(RawScene& raw, const GroundChoice& choice) {
   if (choice.kind == GroundChoice::Kind::None) return;
   const bool is_auto = choice.kind == GroundChoice::Kind::Auto;
   if (is_auto && (!scene.is_city || scene.has_terrain)) return;
-  const Extent box = local_extent(scene);
+  const Extent box = extent_of_surfaces(scene);
   const double z = is_auto ? box.min.z : local_height(scene, choice.height);
   if (is_auto) {
-    if (const auto [count, farthest] = lower_feet(raw, z); count > 0) {
+    const auto [count, farthest] = lower_feet(raw, [z](double, double) { return z; });
+    if (count > 0) {
       raw.findings.add(
           {"feet_lowered", farthest > kHill_m ? Severity::Warning : Severity::Note, "", "",
            fmt::format("{} buildings stand above the ground under the city, by up to "

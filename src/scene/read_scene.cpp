@@ -23,7 +23,9 @@
 #include "scene/placement.h"
 #include "scene/radiance_reader.h"
 #include "scene/repair.h"
+#include "scene/set_on_ground.h"
 #include "scene/strict.h"
+#include "scene/terrain.h"
 #include "scene/terrain_reader.h"
 #include "scene/text_cursor.h"
 #include "scene/tileset_reader.h"
@@ -95,7 +97,7 @@ RawScene read_file(const fs::path& path, const ReadOptions& options, Progress& p
     case Format::Radiance:
       return read_radiance(path, progress);
     case Format::Terrain:
-      return read_terrain(path, options.crs, false, progress);
+      return read_terrain(path, options.crs, progress);
     case Format::CityJson:
       break;
   }
@@ -111,19 +113,6 @@ bool is_city_file(const fs::path& path) {
 
 bool is_terrain_file(const fs::path& path) { return known_format(path) == Format::Terrain; }
 
-/// Sets a city on the elevation models of its folder.
-void append_terrain(RawScene& city, const fs::path& folder, const std::string& crs_option,
-                    Progress& progress) {
-  const std::string& crs = crs_option.empty() ? city.crs : crs_option;
-  for (const fs::path& path : files_in(folder, is_terrain_file)) {
-    RawScene terrain = read_terrain(path, crs.empty() ? crs : Crs::parse(crs).id,
-                                    city.has_registry_axes && crs_option.empty(), progress);
-    if (!crs.empty()) terrain.crs = city.crs;  // or what the option puts in its place
-    terrain.has_registry_axes = city.has_registry_axes;
-    append_tile(city, std::move(terrain), path);
-  }
-}
-
 /// A file, or a folder of tiles.
 RawScene read_raw(const fs::path& path, const ReadOptions& options, Progress& progress) {
   if (!fs::is_directory(path)) return read_file(path, options, progress);
@@ -133,8 +122,24 @@ RawScene read_raw(const fs::path& path, const ReadOptions& options, Progress& pr
   for (std::size_t t = 1; t < tiles.size(); ++t) {
     append_tile(city, read_file(tiles[t], options, progress), tiles[t]);
   }
-  append_terrain(city, path, options.crs, progress);
   return city;
+}
+
+/// Those of the options, then those in the folder of the city.
+std::vector<fs::path> terrain_files(const fs::path& path, const ReadOptions& options) {
+  std::vector<fs::path> files = options.terrain;
+  if (fs::is_directory(path) && !fs::exists(path / "tileset.json")) {
+    for (fs::path& file : files_in(path, is_terrain_file)) files.push_back(std::move(file));
+  }
+  return files;
+}
+
+/// What the scene stands on.
+void set_down(RawScene& raw, const fs::path& path, const ReadOptions& options, Progress& progress) {
+  const Extent box = extent_of_surfaces(raw.scene);
+  add_terrain(raw, terrain_files(path, options), options, progress);
+  if (raw.scene.has_terrain) check_on_ground(raw, GroundHeights(raw, box));
+  add_ground(raw, options.ground);
 }
 
 void refuse_empty(const RawScene& raw, const fs::path& path, const char* which) {
@@ -155,10 +160,18 @@ void refuse_huge(const RawScene& raw, const fs::path& path) {
   }
 }
 
+bool is_of_the_ground(SurfaceType type) {
+  return type == SurfaceType::Ground || type == SurfaceType::Road || type == SurfaceType::Water ||
+         type == SurfaceType::Vegetation;
+}
+
 /// A city as a plain mesh: what no name tells apart is a building.
 void mark_buildings(RawScene& raw) {
   if (!raw.is_mesh || !raw.scene.is_city) return;
-  std::fill(raw.is_building.begin(), raw.is_building.end(), std::uint8_t{1});
+  const Surfaces& surfaces = raw.scene.surfaces;
+  for (std::size_t s = 0; s < surfaces.size(); ++s) {
+    if (!is_of_the_ground(surfaces.type[s])) raw.is_building[surfaces.object[s]] = 1;
+  }
 }
 
 void count_mesh_triangles(RawScene& raw) {
@@ -189,6 +202,13 @@ GroundChoice GroundChoice::parse(const std::string& text) {
   return {Kind::Height, *height};
 }
 
+OnTerrain on_terrain_named(const std::string& text) {
+  if (text == "auto") return OnTerrain::Auto;
+  if (text == "keep") return OnTerrain::Keep;
+  if (text == "move") return OnTerrain::Move;
+  throw InputError("--on-terrain is 'auto', 'keep' or 'move', not '" + text + "'");
+}
+
 Scene read_scene(const fs::path& path, const ReadOptions& options, Progress& progress) {
   progress.begin("reading the scene", 0);
   const auto named =
@@ -204,7 +224,7 @@ Scene read_scene(const fs::path& path, const ReadOptions& options, Progress& pro
   repair(raw, progress);
   refuse_empty(raw, path, " that have an area");
   check_geometry(raw);
-  add_ground(raw, options.ground);
+  set_down(raw, path, options, progress);
   if (options.strict) refuse_mended(raw, path);
   assign_materials(raw, named);
   raw.scene.findings = raw.findings.take();

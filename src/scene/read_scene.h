@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/progress.h"
 #include "core/units.h"
@@ -23,6 +24,12 @@ struct GroundChoice {
   static GroundChoice parse(const std::string& text);
 };
 
+/// Whether terrain of the options moves buildings: `Auto` where all stand at one height.
+enum class OnTerrain { Auto, Keep, Move };
+/// @param text  `auto`, `keep` or `move`
+/// @throws InputError otherwise
+OnTerrain on_terrain_named(const std::string& text);
+
 enum class UpAxis { ByFormat, Y, Z };
 
 /// How to read what the file does not say itself.
@@ -33,6 +40,9 @@ struct ReadOptions {
   UpAxis up = UpAxis::ByFormat;
   std::string crs;  ///< `EPSG:N`, in place of what the file says
   GroundChoice ground;
+  std::vector<std::filesystem::path> terrain;  ///< elevation models beside the scene
+  OnTerrain on_terrain = OnTerrain::Auto;
+  double tolerance_pct = 2.0;                      ///< to which terrain around the scene is thinned
   std::optional<std::filesystem::path> materials;  ///< TOML
   bool strict = false;           ///< refuse what would be mended, left out or guessed
   std::optional<Location> site;  ///< of the local origin, in place of what the file says

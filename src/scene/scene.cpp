@@ -18,6 +18,12 @@ Vec3 area_vector(const Scene& scene, std::size_t s) {
   return 0.5 * doubled;
 }
 
+Extent extent_of_surfaces(const Scene& scene) {
+  Extent box;
+  for (const std::uint32_t v : scene.surfaces.vertex) box.add(scene.vertices[v]);
+  return box;
+}
+
 SurfaceType type_by_normal(Vec3 normal) {
   constexpr double kSin10Degrees = 0.17364817766693033;
   const double up = normal.z / length(normal);

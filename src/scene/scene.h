@@ -88,6 +88,9 @@ struct Scene {
 /// direction the mean normal. By Newell's sum over the rings.
 Vec3 area_vector(const Scene& scene, std::size_t s);
 
+/// Of the vertices that surfaces use, in the frame of `vertices`.
+Extent extent_of_surfaces(const Scene& scene);
+
 /// Wall, roof (facing up) or ground (facing down), by the normal of a building's surface.
 /// Up and down begin 10 degrees from the vertical plane.
 SurfaceType type_by_normal(Vec3 normal);

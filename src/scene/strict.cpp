@@ -12,9 +12,10 @@ namespace tenku {
 namespace {
 
 /// Warnings of what is read as it is.
-constexpr std::array<std::string_view, 9> kOnlyTold{
-    "open_shell", "misoriented_faces", "nonplanar_over_10cm", "coincident_faces", "far_from_origin",
-    "flat_city",  "huge_triangle",     "unlikely_size",       "footprint_only"};
+constexpr std::array<std::string_view, 12> kOnlyTold{
+    "open_shell",      "misoriented_faces", "nonplanar_over_10cm", "coincident_faces",
+    "far_from_origin", "flat_city",         "huge_triangle",       "unlikely_size",
+    "footprint_only",  "floating_building", "buried_building",     "off_terrain"};
 
 /// Notes of what is not.
 constexpr std::array<std::string_view, 5> kMended{"duplicate_vertices", "repeated_vertex",

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -11,6 +10,9 @@
 
 namespace tenku {
 namespace {
+
+// Two triangles each; more than that no scene of ours has been lit with.
+constexpr std::size_t kMostPixels = 4'000'000;
 
 const ElevationCodec& elevation_codec() {
   static const auto& codec = dynamic_cast<const ElevationCodec&>(load_plugin("terrain"));
@@ -37,7 +39,6 @@ std::vector<std::uint32_t> add_vertices(RawScene& raw, const ElevationModel& mod
       continue;
     }
     p.z /= metres_per_unit;
-    if (raw.has_registry_axes && model.is_northing_first) std::swap(p.x, p.y);
     vertex[k] = static_cast<std::uint32_t>(raw.scene.vertices.size());
     raw.scene.vertices.push_back(p);
   }
@@ -62,26 +63,29 @@ void add_cells(Scene& scene, const ElevationModel& model,
 
 }  // namespace
 
-RawScene read_terrain(const std::filesystem::path& path, const std::string& city_crs,
-                      bool has_registry_axes, Progress& progress) {
-  const ElevationModel model = elevation_codec().read(path, city_crs);
-  progress.stop_if_cancelled();
+ElevationModel read_elevation_model(const std::filesystem::path& path, const std::string& crs) {
+  ElevationModel model = elevation_codec().read(path, crs);
   if (model.rows < 2 || model.columns < 2) {
     throw InputError(path.string() + ": an elevation model has two rows and two columns or more");
+  }
+  return model;
+}
+
+RawScene read_terrain(const std::filesystem::path& path, const std::string& crs,
+                      Progress& progress) {
+  const ElevationModel model = read_elevation_model(path, crs);
+  progress.stop_if_cancelled();
+  if (model.points.size() > kMostPixels) {
+    throw InputError(path.string() +
+                     ": more than 4 million pixels; around a scene (--terrain) they are thinned");
   }
   RawScene raw;
   raw.scene.format = "GeoTIFF";
   raw.scene.is_city = raw.scene.has_terrain = true;
   raw.scene.lods = {""};
-  raw.crs = city_crs.empty() ? model.crs : city_crs;
-  if (model.crs.empty() && !city_crs.empty()) {
-    raw.findings.add({"terrain_without_crs", Severity::Warning, "", path.filename().string(),
-                      "the elevation model names no coordinate reference system",
-                      "taken to be in " + city_crs});
-  }
+  raw.crs = crs.empty() ? model.crs : crs;
   raw.scene.objects.push_back({path.stem().string(), "TINRelief"});
   raw.is_building = {0};
-  raw.has_registry_axes = has_registry_axes;
   const double unit = raw.crs.empty() ? 1.0 : Crs::parse(raw.crs).metres_per_unit;
   const bool is_degrees = !raw.crs.empty() && Crs::parse(raw.crs).geographic;
   const auto vertex = add_vertices(raw, model, is_degrees ? 1.0 : unit, path.filename().string());

@@ -35,12 +35,16 @@ constexpr double kWiden = 1.5;  // the spacing, as long as there are too many se
 constexpr double kWidest_m = 1000.0;
 constexpr double kShare = 4.0;  // spacings over which sensors on a surface share reflected light
 
-ReadOptions read_options_of(const StudyScene& scene) {
+ReadOptions read_options_of(const Study& study) {
+  const StudyScene& scene = study.scene;
   ReadOptions options;
+  options.tolerance_pct = study.calculation.tolerance_percent;
   options.building_lod = scene.building_lod;
   options.materials = scene.materials;
   options.crs = scene.crs;
   options.ground = GroundChoice::parse(scene.ground);
+  options.terrain = scene.terrain;
+  options.on_terrain = on_terrain_named(scene.on_terrain);
   options.up = scene.up == "y" ? UpAxis::Y : scene.up == "z" ? UpAxis::Z : UpAxis::ByFormat;
   options.scale = scene.scale;
   options.rotate = scene.rotate;
@@ -95,7 +99,7 @@ class StudyRun {
         folder_(folder),
         progress_(progress),
         lit_(
-            study.scene.file, read_options_of(study.scene),
+            study.scene.file, read_options_of(study),
             [&](const std::optional<Location>& scene_site) {
               moment_ = moment_of(study, scene_site);
               return sky_of(study, moment_);

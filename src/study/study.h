@@ -25,6 +25,8 @@ struct StudyScene {
   std::optional<std::filesystem::path> materials;
   std::string crs;               ///< `EPSG:N`, in place of what the file says; or empty
   std::string ground = "auto";   ///< `auto`, `none`, or a height in the coordinates of the file
+  std::vector<std::filesystem::path> terrain;  ///< elevation models beside the scene
+  std::string on_terrain = "auto";             ///< `auto`, `keep` or `move`
   std::string up;                ///< `y`, `z`, or empty: by the format
   double scale = 1.0;            ///< metres per unit of the file
   Angle rotate;                  ///< clockwise, seen from above

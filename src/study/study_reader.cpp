@@ -25,7 +25,7 @@ struct KnownTable {
 // docs/study.md has the same tables and keys; a test compares them.
 const std::vector<KnownTable>& known_tables() {
   static const std::vector<KnownTable> kTables{
-      {"scene", {"file", "lod", "materials", "crs", "ground", "up", "scale", "rotate_deg"}},
+      {"scene", {"file", "lod", "materials", "crs", "ground", "terrain", "on_terrain", "up", "scale", "rotate_deg"}},
       {"site", {"latitude_deg", "longitude_deg", "elevation_m"}},
       {"time", {"at", "zone"}},
       {"sun", {"altitude_deg", "azimuth_deg", "illuminance_lx"}},
@@ -92,6 +92,7 @@ std::string ground_of(const TomlSection& in) {
 
 StudyScene scene_of(const TomlSection& in, const fs::path& folder) {
   static constexpr std::array<std::string_view, 2> kUp{"y", "z"};
+  static constexpr std::array<std::string_view, 3> kOnTerrain{"auto", "keep", "move"};
   StudyScene scene;
   if (const auto file = in.text("file")) scene.file = folder / *file;
   const std::string lod = in.text_or_number("lod", {0.0, 9.0}).value_or("highest");
@@ -99,6 +100,8 @@ StudyScene scene_of(const TomlSection& in, const fs::path& folder) {
   if (const auto file = in.text("materials")) scene.materials = folder / *file;
   scene.crs = in.text("crs").value_or("");
   scene.ground = ground_of(in);
+  if (const auto file = in.text("terrain")) scene.terrain = {folder / *file};
+  scene.on_terrain = in.choice("on_terrain", kOnTerrain).value_or("auto");
   scene.up = in.choice("up", kUp).value_or("");
   scene.scale = in.number("scale", {0.0, 1e6, true}).value_or(1.0);
   scene.rotate = angle(in, "rotate_deg", {-360.0, 360.0}).value_or(Angle());
@@ -322,6 +325,7 @@ void apply_overrides(Study& study, const StudyOverrides& overrides, const TomlSe
   const TomlSection scene = document.table("scene");
   refuse_if(scene.has("crs"), scene, "crs");
   refuse_if(study.scene.ground != "auto" && study.scene.ground != "none", scene, "ground");
+  refuse_if(!study.scene.terrain.empty(), scene, "terrain");
   refuse_if(study.scene.site.has_value(), document, "site");
   for (const TomlSection& view : document.tables("view")) refuse_if(view.has("eye"), view, "eye");
   study.scene.file = overrides.scene;

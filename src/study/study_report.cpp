@@ -326,6 +326,7 @@ Manifest ReportBuilder::manifest(const std::vector<std::filesystem::path>& files
   manifest.command = "tenku run " + study_.file.string();
   manifest.inputs.push_back(manifest_input(study_.file));
   manifest.inputs.push_back(manifest_input(study_.scene.file));
+  for (const auto& file : study_.scene.terrain) manifest.inputs.push_back(manifest_input(file));
   if (study_.scene.materials) manifest.inputs.push_back(manifest_input(*study_.scene.materials));
   for (const StudySensors& s : study_.sensors) manifest.inputs.push_back(manifest_input(s.file));
   const auto seed = static_cast<std::int64_t>(study_.calculation.seed);
