@@ -33,6 +33,8 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kTexelPerPercent_m = 0.35;  // of tolerance
 constexpr double kFinestTexel_m = 0.1, kCoarsestTexel_m = 8.0;
 constexpr int kLeastTexels = 128, kMostTexels = 2048, kUsualTexels = 1024;
+constexpr double kAlone =
+    2.0;  // such maps hold no more texels than four times those of each sensor by itself
 constexpr std::size_t kClusters = 4;
 constexpr double kInCluster = 2000.0;                    // sensors
 constexpr std::size_t kFewTrials = 2, kMoreTrials = 10;  // elements that tell the time of maps,
@@ -365,7 +367,8 @@ Parts parts_of(const Sensors& sensors, const IlluminanceOptions& options,
                const LightMethod& method) {
   if (method.eye) return split_by_distance(sensors, *method.eye);
   if (method.engine == EngineChoice::Rays) return {all_of(sensors.size())};
-  return split_by_extent(sensors, kMostTexels * texel_of(options.tolerance_pct));
+  const double texel = texel_of(options.tolerance_pct);
+  return split_by_extent(sensors, kMostTexels * texel, kAlone * kLeastTexels * texel);
 }
 
 }  // namespace

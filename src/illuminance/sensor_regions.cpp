@@ -1,6 +1,7 @@
 #include "illuminance/sensor_regions.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <numeric>
 #include <utility>
@@ -30,14 +31,18 @@ std::vector<std::uint32_t> all_of(std::size_t count) {
   return all;
 }
 
-Parts split_by_extent(const Sensors& sensors, double most_m) {
+Parts split_by_extent(const Sensors& sensors, double most_m, double alone_m) {
   std::vector<Part> parts{Part(all_of(sensors.size()), sensors)};
   while (parts.size() < kMostParts) {
-    const auto widest = std::max_element(
-        parts.begin(), parts.end(),
-        [](const Part& a, const Part& b) { return a.box.longest_side() < b.box.longest_side(); });
+    const auto excess = [&](const Part& part) {
+      const double few_m = alone_m * std::sqrt(static_cast<double>(part.sensor.size()));
+      return part.box.longest_side() / std::min(most_m, few_m);
+    };
+    const auto widest =
+        std::max_element(parts.begin(), parts.end(),
+                         [&](const Part& a, const Part& b) { return excess(a) < excess(b); });
     const Extent box = widest->box;
-    if (!(box.longest_side() > most_m)) break;
+    if (!(excess(*widest) > 1.0)) break;
     const bool by_x = box.size().x >= box.size().y;
     const auto place = [&](std::uint32_t s) {
       return by_x ? sensors.position[s].x : sensors.position[s].y;
