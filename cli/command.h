@@ -43,6 +43,7 @@ CommandBody make_radiosity_command(OptionList& app);
 CommandBody make_form_factors_command(OptionList& app);
 CommandBody make_reflections_command(OptionList& app);
 CommandBody make_chart_command(OptionList& app);
+CommandBody make_compare_command(OptionList& app);
 CommandBody make_flythrough_command(OptionList& app);
 CommandBody make_play_command(OptionList& app);
 CommandBody make_run_command(OptionList& app);

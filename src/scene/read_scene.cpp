@@ -24,6 +24,7 @@
 #include "scene/radiance_reader.h"
 #include "scene/repair.h"
 #include "scene/set_on_ground.h"
+#include "scene/solid_checks.h"
 #include "scene/strict.h"
 #include "scene/terrain.h"
 #include "scene/terrain_reader.h"
@@ -224,6 +225,8 @@ Scene read_scene(const fs::path& path, const ReadOptions& options, Progress& pro
   repair(raw, progress);
   refuse_empty(raw, path, " that have an area");
   check_geometry(raw);
+  check_solids(raw);
+  progress.stop_if_cancelled();
   set_down(raw, path, options, progress);
   if (options.strict) refuse_mended(raw, path);
   assign_materials(raw, named);

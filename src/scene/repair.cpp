@@ -144,11 +144,20 @@ void merge_vertices(RawScene& raw) {
     }
     v = new_index[v];
   }
+  const auto unused =
+      static_cast<std::size_t>(std::count(new_index.begin(), new_index.end(), kNone));
   vertices = std::move(kept);
   vertices.shrink_to_fit();
-  if (duplicates == 0 || !raw.shares_vertices) return;
-  raw.findings.add({"duplicate_vertices", Severity::Note, "", "",
-                    "vertices have the same coordinates as others", "made one", duplicates});
+  if (!raw.shares_vertices) return;
+  if (duplicates > 0) {
+    raw.findings.add({"duplicate_vertices", Severity::Note, "", "",
+                      "vertices have the same coordinates as others", "made one", duplicates});
+  }
+  // In a city model they may be those of another level of detail.
+  if (unused > 0 && raw.is_mesh) {
+    raw.findings.add({"unused_vertices", Severity::Note, "", "", "vertices that no face names",
+                      "left out", unused});
+  }
 }
 
 void tidy_rings(RawScene& raw) {
@@ -244,6 +253,11 @@ void check_polygons(RawScene& raw) {
       raw.findings.add(about(raw, s, raw.scene.surfaces.outer_ring(s), "self_intersecting_ring",
                              Severity::Warning, "rings cut or touch themselves",
                              "filled by the odd-even rule"));
+    }
+    if (shape.has_stray_hole) {
+      raw.findings.add(about(
+          raw, s, raw.scene.surfaces.outer_ring(s), "stray_hole", Severity::Warning,
+          "holes leave their outer ring or lie in one another", "filled by the odd-even rule"));
     }
   }
 }

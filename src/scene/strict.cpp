@@ -12,10 +12,21 @@ namespace tenku {
 namespace {
 
 /// Warnings of what is read as it is.
-constexpr std::array<std::string_view, 12> kOnlyTold{
-    "open_shell",      "misoriented_faces", "nonplanar_over_10cm", "coincident_faces",
-    "far_from_origin", "flat_city",         "huge_triangle",       "unlikely_size",
-    "footprint_only",  "floating_building", "buried_building",     "off_terrain"};
+constexpr std::array<std::string_view, 15> kOnlyTold{"open_shell",
+                                                     "misoriented_faces",
+                                                     "nonplanar_over_10cm",
+                                                     "coincident_faces",
+                                                     "far_from_origin",
+                                                     "flat_city",
+                                                     "huge_triangle",
+                                                     "unlikely_size",
+                                                     "footprint_only",
+                                                     "floating_building",
+                                                     "buried_building",
+                                                     "off_terrain",
+                                                     "overlapping_buildings",
+                                                     "shell_in_parts",
+                                                     "inner_shell_outside"};
 
 /// Notes of what is not.
 constexpr std::array<std::string_view, 5> kMended{"duplicate_vertices", "repeated_vertex",

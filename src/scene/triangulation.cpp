@@ -140,9 +140,39 @@ std::vector<std::uint32_t> fill(ConstrainedDelaunay& mesh, const Surfaces& surfa
 
 }  // namespace
 
+namespace {
+
+using Ring2 = std::vector<Point2>;
+
+/// On the given side of a ring and farther from it than rounding explains.
+bool is_clearly(CGAL::Bounded_side side, const Point2& p, const Ring2& ring) {
+  constexpr double kClear_m = 0.01;
+  if (CGAL::bounded_side_2(ring.begin(), ring.end(), p, Kernel()) != side) return false;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Kernel::Segment_2 edge(ring[k], ring[(k + 1) % ring.size()]);
+    if (CGAL::squared_distance(p, edge) < kClear_m * kClear_m) return false;
+  }
+  return true;
+}
+
+bool has_stray_hole(const std::vector<Ring2>& rings) {
+  for (std::size_t r = 1; r < rings.size(); ++r) {
+    for (const Point2& p : rings[r]) {
+      if (is_clearly(CGAL::ON_UNBOUNDED_SIDE, p, rings[0])) return true;
+      for (std::size_t o = 1; o < rings.size(); ++o) {
+        if (o != r && is_clearly(CGAL::ON_BOUNDED_SIDE, p, rings[o])) return true;
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
 PolygonShape shape_of(const Scene& scene, std::size_t surface) {
   const Plane plane = plane_of(scene.surfaces, surface, scene.vertices);
   PolygonShape shape;
+  std::vector<Ring2> rings;
   for (std::size_t r = scene.surfaces.first_ring[surface];
        r < scene.surfaces.first_ring[surface + 1]; ++r) {
     const auto ring = scene.surfaces.ring(r);
@@ -150,10 +180,12 @@ PolygonShape shape_of(const Scene& scene, std::size_t surface) {
       const double off = std::abs(dot(scene.vertices[v] - plane.origin, plane.normal));
       shape.off_plane_m = std::max(shape.off_plane_m, off);
     }
-    const std::vector<Point2> flat = flat_ring(ring, plane, scene.vertices);
+    rings.push_back(flat_ring(ring, plane, scene.vertices));
+    const Ring2& flat = rings.back();
     if (flat.size() == 4 && is_convex(flat)) continue;
     shape.is_simple = shape.is_simple && CGAL::is_simple_2(flat.begin(), flat.end(), Kernel());
   }
+  shape.has_stray_hole = shape.is_simple && has_stray_hole(rings);
   return shape;
 }
 

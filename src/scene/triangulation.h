@@ -11,8 +11,9 @@ namespace tenku {
 
 /// What is unusual about a polygon.
 struct PolygonShape {
-  double off_plane_m = 0.0;  ///< largest distance of a vertex from the mean plane
-  bool is_simple = true;     ///< no ring cuts or touches itself
+  double off_plane_m = 0.0;     ///< largest distance of a vertex from the mean plane
+  bool is_simple = true;        ///< no ring cuts or touches itself
+  bool has_stray_hole = false;  ///< one that leaves its outer ring, or lies in another, by 1 cm
 };
 PolygonShape shape_of(const Scene& scene, std::size_t surface);
 

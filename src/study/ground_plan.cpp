@@ -21,20 +21,6 @@ bool is_ground(SurfaceType type) {
          type == SurfaceType::Floor;
 }
 
-/// The ground straight below `from`, if no building covers it.
-std::optional<Vec3> ground_below(const LitScene& lit, Vec3 from) {
-  for (int layer = 0; layer < kMostCrowns; ++layer) {
-    const auto hit = lit.rays().first_hit(from, {0.0, 0.0, -1.0});
-    if (!hit) return std::nullopt;
-    const Vec3 at = from - Vec3{0.0, 0.0, hit->distance_m};
-    const SurfaceType type = broad_type(lit.soup(), hit->triangle);
-    if (is_ground(type)) return at;
-    if (type != SurfaceType::Vegetation) return std::nullopt;
-    from = at - Vec3{0.0, 0.0, std::max(1e-3, 2.0 * lit.rays().lift_m())};
-  }
-  return std::nullopt;
-}
-
 std::vector<PlanFace> building_faces(const LitScene& lit) {
   std::vector<PlanFace> faces;
   for (std::uint32_t t = 0; t < lit.soup().size(); ++t) {
@@ -48,6 +34,19 @@ std::vector<PlanFace> building_faces(const LitScene& lit) {
 }
 
 }  // namespace
+
+std::optional<Vec3> ground_below(const LitScene& lit, Vec3 from) {
+  for (int layer = 0; layer < kMostCrowns; ++layer) {
+    const auto hit = lit.rays().first_hit(from, {0.0, 0.0, -1.0});
+    if (!hit) return std::nullopt;
+    const Vec3 at = from - Vec3{0.0, 0.0, hit->distance_m};
+    const SurfaceType type = broad_type(lit.soup(), hit->triangle);
+    if (is_ground(type)) return at;
+    if (type != SurfaceType::Vegetation) return std::nullopt;
+    from = at - Vec3{0.0, 0.0, std::max(1e-3, 2.0 * lit.rays().lift_m())};
+  }
+  return std::nullopt;
+}
 
 void GroundPlan::fill(const SensorIlluminance& values) {
   for (std::size_t i = 0; i < cell.size(); ++i) grid.values[cell[i]] = values.total_lux(i);

@@ -1,6 +1,7 @@
 /// Sensors on the ground, in squares as a map shows them.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "illuminance/sensor.h"
@@ -18,6 +19,9 @@ struct GroundPlan {
 
   void fill(const SensorIlluminance& values);
 };
+
+/// The ground straight below a place, unless a building covers it.
+std::optional<Vec3> ground_below(const LitScene& lit, Vec3 from);
 
 /// @param spacing_m  side of a square; wider where there would be over 60,000 of them
 GroundPlan ground_plan(const LitScene& lit, double spacing_m);

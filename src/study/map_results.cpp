@@ -64,18 +64,17 @@ class TopTriangle {
   double area_;
 };
 
-/// The map's own place of the squares, and what it is called.
-void place(const LitScene& lit, const Squares& squares, MapRaster& raster) {
+/// The map's own place of squares, and what it is called.
+void place(const LitScene& lit, double west, double north, double cell, MapRaster& raster) {
   const Scene& scene = lit.scene();
-  const Vec3 corner{squares.west, squares.north, 0.0};
-  const auto on_map = [&](Vec3 local) {
-    return scene.map_frame.is_geographic() ? local : scene.map_frame.to_file(local);
+  const bool is_geographic = scene.map_frame.is_geographic();
+  const auto on_map = [&](double x, double y) {
+    return is_geographic ? Vec3{x, y, 0.0} : scene.map_frame.to_file({x, y, 0.0});
   };
-  const Vec3 o = on_map(corner), e = on_map(corner + Vec3{squares.cell, 0.0, 0.0}) - o;
-  const Vec3 s = on_map(corner - Vec3{0.0, squares.cell, 0.0}) - o;
+  const Vec3 o = on_map(west, north);
+  const Vec3 e = on_map(west + cell, north) - o, s = on_map(west, north - cell) - o;
   raster.to_map = {o.x, e.x, s.x, o.y, e.y, s.y};
-  raster.crs = map_crs(lit);
-  if (scene.map_frame.is_geographic()) raster.crs = map_about(scene.georeference->origin);
+  raster.crs = is_geographic ? map_about(scene.georeference->origin) : map_crs(lit);
 }
 
 MapLayer::Polygon polygon_of(const Scene& scene, std::size_t s) {
@@ -106,7 +105,7 @@ MapRaster raster_of_grid(const LitScene& lit, const SensorGrid& grid,
   const Squares squares(grid, cell_m);
   MapRaster raster;
   raster.rows = squares.rows, raster.columns = squares.columns;
-  place(lit, squares, raster);
+  place(lit, squares.west, squares.north, squares.cell, raster);
   const std::size_t cells = raster.rows * raster.columns;
   const float none = std::numeric_limits<float>::quiet_NaN();
   for (const char* name : kLuxNames) {
@@ -142,6 +141,14 @@ MapRaster raster_of_grid(const LitScene& lit, const SensorGrid& grid,
       }
     }
   }
+  return raster;
+}
+
+MapRaster raster_of_squares(const LitScene& lit, const PlanGrid& grid) {
+  MapRaster raster;
+  raster.rows = static_cast<std::size_t>(grid.rows);
+  raster.columns = static_cast<std::size_t>(grid.columns);
+  place(lit, grid.west, grid.north, grid.cell_m, raster);
   return raster;
 }
 

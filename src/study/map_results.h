@@ -4,6 +4,7 @@
 #include "illuminance/sensor.h"
 #include "illuminance/sensor_grid.h"
 #include "output/map_writer.h"
+#include "reports/plan_map.h"
 #include "study/lit_scene.h"
 
 namespace tenku {
@@ -17,6 +18,9 @@ namespace tenku {
 /// @param cell_m  side of a square; wider where there would be over 100 million of them
 MapRaster raster_of_grid(const LitScene& lit, const SensorGrid& grid,
                          const SensorIlluminance& values, double cell_m);
+
+/// The place of squares of a plan on the map, without bands. Frame as of `raster_of_grid`.
+MapRaster raster_of_squares(const LitScene& lit, const PlanGrid& grid);
 
 /// Layers `surfaces`, all on which there are sensors, and `buildings`: the objects to which they
 /// belong, as their ground surfaces, or else their roofs, seen from above; each with the means of
