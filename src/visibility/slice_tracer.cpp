@@ -114,8 +114,10 @@ double SliceTracer::Outline::distance() const {
 bool SliceTracer::Outline::is_past(const Altitude& other, int sense, double by_rad) const {
   if (!(point.r > 0.0)) return sense * (altitude().radians - other.radians) > by_rad;
   const double turned = sense * (point.z * other.cosine - point.r * other.sine);
-  return by_rad > 0.0 ? turned > by_rad * std::sqrt(point.r * point.r + point.z * point.z)
-                      : turned > 0.0;
+  // The sine of an angle near 180 degrees is as small as that of none.
+  const bool is_opposite = point.r * other.cosine + point.z * other.sine < 0.0;
+  if (!(by_rad > 0.0) || is_opposite) return turned > 0.0;
+  return turned > by_rad * std::sqrt(point.r * point.r + point.z * point.z);
 }
 
 bool SliceTracer::cut_near(std::uint32_t triangle, Cut& result) const {
