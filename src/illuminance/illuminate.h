@@ -24,9 +24,14 @@ struct ReflectionFinder {
   using Finder =
       std::function<void(const Sensors& sensors, SensorIlluminance& values, Progress& progress)>;
   Finder all;
-  /// The same in two parts for a picture: what varies slowly, for some of its points; then, for all
-  /// of them, the light straight from lamps is added; more carefully where a shadow ends.
-  Finder without_lamps, lamps, lamps_on_edges;
+  /// The same in two parts for a picture: for all of its points the light straight from lamps is
+  /// added, more carefully where a shadow ends;
+  Finder lamps, lamps_on_edges;
+  /// then, for some of them, what varies slowly. Light of lamps counts as direct light here.
+  /// @param mean_of  so many values are to be averaged: each may have the noise of one of them
+  std::function<void(const Sensors& places, int mean_of, SensorIlluminance& values,
+                     Progress& progress)>
+      without_lamps;
 };
 
 struct IlluminanceOptions {

@@ -34,7 +34,7 @@ class EmitterLight {
  public:
   static constexpr double kFaint = 0.015, kMostView = 0.6, kSettled = 0.001;
   static constexpr std::size_t kMostLamps = 512;
-  static constexpr int kPixelFirst = 64, kPixelMost = 256, kEdgeFirst = 512, kEdgeMost = 1024;
+  static constexpr int kPixelFirst = 64, kPixelMost = 256, kEdgeFirst = 256, kEdgeMost = 512;
 
   /// @param mesh  kept by reference
   EmitterLight(const ElementMesh& mesh, const SidePoints& points, const SurfaceLight& surfaces,

@@ -308,7 +308,9 @@ InteriorSensors Interior::look_from(const Sensors& sensors) const {
 }
 
 void Interior::add_lamps(const Sensors& points, const InteriorLight& light, bool on_edges,
-                         SensorIlluminance& values) const {
+                         SensorIlluminance& values, Progress& progress) const {
+  if (!emitters_.is_any()) return;
+  progress.begin("light of lamps", 0);
   const auto lamps = emitters_.at_pixels(
       points, options_.lift_m,
       on_edges ? EmitterLight::PixelLook::OnEdges : EmitterLight::PixelLook::Usual);
@@ -318,6 +320,7 @@ void Interior::add_lamps(const Sensors& points, const InteriorLight& light, bool
     const double interval = interval_lux(lamps[i].variance, 0.0);
     values.error_lux[i] = std::hypot(values.error_lux[i], light.lamp_scale * interval);
   }
+  progress.end(std::to_string(points.size()) + " places in the picture");
 }
 
 void Interior::add_reflected(InteriorSensors& sensors, const InteriorLight& light,
@@ -347,8 +350,9 @@ void Interior::add_reflected(InteriorSensors& sensors, const InteriorLight& ligh
   }
 }
 
-void Interior::add_reflected_to_pixels(const Sensors& points, const InteriorLight& light,
-                                       SensorIlluminance& values, Progress& progress) {
+void Interior::add_reflected_to_pixels(const Sensors& points, int mean_of,
+                                       const InteriorLight& light, SensorIlluminance& values,
+                                       Progress& progress) {
   if (!pixels_) {
     pixels_ = std::make_unique<PixelGather>(
         mesh_, gather_options(options_, options_.sensor_resolution / 2));
@@ -359,7 +363,7 @@ void Interior::add_reflected_to_pixels(const Sensors& points, const InteriorLigh
   const std::vector<MeshDoubt> doubts = mesh_doubts(light.corners);
   const SettledLooks settled =
       pixels_->gather(points, {lit, emitters_, light.lamp_scale, sent, slopes, doubts}, values,
-                      options_.tolerance_pct, progress);
+                      {options_.tolerance_pct, mean_of}, progress);
   for (std::size_t i = 0; i < values.size(); ++i) {
     add_from_sides(light, settled.lux[i], interval_lux(settled.variance[i], settled.mesh_lux[i]), i,
                    values);

@@ -94,7 +94,7 @@ class Interior {
   /// Adds the light straight from lamps to points of a picture.
   /// @param on_edges  neighbours differ: a lamp may be seen by a sliver
   void add_lamps(const Sensors& points, const InteriorLight& light, bool on_edges,
-                 SensorIlluminance& values) const;
+                 SensorIlluminance& values, Progress& progress) const;
   /// Adds the light from sides to direct light on sensors. Those that are not within half of the
   /// tolerance look more finely, and stay so.
   void add_reflected(InteriorSensors& sensors, const InteriorLight& light,
@@ -103,7 +103,9 @@ class Interior {
   /// The same for some points of a picture, whose light is blended at the others, without lamps,
   /// whose shadows are too sharp to be blended. Half as many lines by rays, which see how what a
   /// side sends varies over it.
-  void add_reflected_to_pixels(const Sensors& points, const InteriorLight& light,
+  /// @param values   direct light, that of lamps included
+  /// @param mean_of  so many values are to be averaged: each may have the noise of one of them
+  void add_reflected_to_pixels(const Sensors& points, int mean_of, const InteriorLight& light,
                                SensorIlluminance& values, Progress& progress);
 
   const SidePoints& points() const { return points_; }

@@ -40,12 +40,15 @@ class PixelGather {
   /// @param mesh  kept by reference
   PixelGather(const ElementMesh& mesh, const PointGatherOptions& options);
 
+  struct Goal {
+    double tolerance_pct;
+    int mean_of;  ///< values that are to be averaged: each may have the noise of one of them
+  };
   /// Light from sides without the lamps that are found for each point by themselves.
   /// @param values  direct light that is known
   /// @throws Cancelled
   SettledLooks gather(const Sensors& points, const SentBySides& sent,
-                      const SensorIlluminance& values, double tolerance_pct,
-                      Progress& progress) const;
+                      const SensorIlluminance& values, Goal goal, Progress& progress) const;
 
  private:
   using Looks = std::array<std::unique_ptr<HemisphereLook>, PointGather::kLooks>;
@@ -63,7 +66,12 @@ class PixelGather {
 
   /// Reflected radiosity at a place on a side, as its corners tell.
   Rgb sent_from(std::uint32_t side, Vec3 place, const SentBySides& sent) const;
-  Rgb sent_by_path(std::uint32_t side, Vec3 place, const SentBySides& sent) const;
+  /// The same, one draw.
+  /// @param way  of the first ray, cosine-weighted on the unit square
+  Rgb sent_by_path(std::uint32_t side, Vec3 place, std::array<double, 2> way,
+                   const SentBySides& sent) const;
+  Rgb sent_by_paths(const std::vector<const MetSide*>& met, const Point& point,
+                    const SentBySides& sent) const;
   Found look(const HemisphereLook& look, const Point& point, const SentBySides& sent) const;
 
   PointGatherOptions options_;

@@ -39,15 +39,15 @@ SceneReflection::SceneReflection(const LitScene& lit, Reflection how) : lit_(lit
     InteriorSensors look = interior_->look_from(sensors);
     interior_->add_reflected(look, *light_, values, progress);
   };
-  finder_.without_lamps = [this](const Sensors& points, SensorIlluminance& values,
+  finder_.without_lamps = [this](const Sensors& places, int mean_of, SensorIlluminance& values,
                                  Progress& progress) {
     if (!light_) solve(progress);
-    interior_->add_reflected_to_pixels(points, *light_, values, progress);
+    interior_->add_reflected_to_pixels(places, mean_of, *light_, values, progress);
   };
   const auto lamps = [this](bool on_edges) {
     return [this, on_edges](const Sensors& points, SensorIlluminance& values, Progress& progress) {
       if (!light_) solve(progress);
-      interior_->add_lamps(points, *light_, on_edges, values);
+      interior_->add_lamps(points, *light_, on_edges, values, progress);
     };
   };
   finder_.lamps = lamps(false);

@@ -151,14 +151,14 @@ void add_reflected(const SensorIlluminance& part, SensorIlluminance& light) {
   }
 }
 
-/// Adds light that ends at shadows.
+/// Light that ends at shadows.
 /// @param find  is told the points only on edges
-void add_lamps(const PixelRays& pixels, double tolerance, const PlaceLightFinder& find,
-               SensorIlluminance& light) {
+SensorIlluminance light_of_lamps(const PixelRays& pixels, double tolerance,
+                                 const PlaceLightFinder& find) {
   SensorIlluminance lamps(pixels.points.sensors.size());
   find(pixels.points.sensors, {}, lamps);
   take_means_of_rays(pixels, points_on_edges(pixels.points, lamps, tolerance), find, lamps);
-  add_reflected(lamps, light);
+  return lamps;
 }
 
 /// Light between surfaces by the finder of the request: what varies slowly is shared, light of
@@ -166,28 +166,34 @@ void add_lamps(const PixelRays& pixels, double tolerance, const PlaceLightFinder
 void add_found_reflection(const ViewRequest& request, const PixelRays& pixels,
                           SensorIlluminance& light, Progress& progress) {
   const double tolerance = request.tolerance_pct / 100.0;
-  const auto find_at = [&](const Sensors& places, std::span<const std::uint32_t> point,
+  const SensorIlluminance lamps = light_of_lamps(
+      pixels, tolerance, [&](const Sensors& places, auto point, SensorIlluminance& values) {
+        const auto& found =
+            point.empty() ? request.reflection->lamps : request.reflection->lamps_on_edges;
+        found(places, values, progress);
+      });
+  const auto find_at = [&](const Sensors& places, std::span<const std::uint32_t> point, int mean_of,
                            SensorIlluminance& values) {
-    for (std::size_t k = 0; k < point.size(); ++k) values.sky_lux[k] = light.sky_lux[point[k]];
-    request.reflection->without_lamps(places, values, progress);
+    for (std::size_t k = 0; k < point.size(); ++k) {
+      values.sky_lux[k] = light.sky_lux[point[k]] + lamps.reflected_lux[point[k]];
+    }
+    request.reflection->without_lamps(places, mean_of, values, progress);
   };
   const auto find = [&](std::span<const std::uint32_t> chosen) {
     SensorIlluminance values(chosen.size());
-    find_at(sensors_of(pixels.points.sensors, chosen), chosen, values);
+    find_at(sensors_of(pixels.points.sensors, chosen), chosen, 1, values);
     return values;
   };
   SensorIlluminance shared(light.size());
   const auto untold = share_by_pixels(pixels.points, tolerance, find, shared);
-  take_means_of_rays(pixels, untold, find_at, shared);
-  add_reflected(shared, light);
-  add_lamps(
-      pixels, tolerance,
+  take_means_of_rays(
+      pixels, untold,
       [&](const Sensors& places, auto point, SensorIlluminance& values) {
-        const auto& lamps =
-            point.empty() ? request.reflection->lamps : request.reflection->lamps_on_edges;
-        lamps(places, values, progress);
+        find_at(places, point, static_cast<int>(kRayPlaces.size()), values);
       },
-      light);
+      shared);
+  add_reflected(shared, light);
+  add_reflected(lamps, light);
 }
 
 /// The same by paths.
@@ -204,12 +210,12 @@ std::uint64_t add_reflection_by_paths(const ViewRequest& request, const ViewWork
   add_shared_reflection(sharing, rays, source, options, progress, light);
   const ErrorBudget budget = lamp_budget(request, light.values);
   std::uint64_t sent = 0;
-  add_lamps(
-      {work.points, *work.paths, rays}, request.tolerance_pct / 100.0,
-      [&](const Sensors& places, auto, SensorIlluminance& values) {
-        sent += add_lamp_light(places, rays, budget, request.seed, progress, values);
-      },
-      light.values);
+  const SensorIlluminance lamps =
+      light_of_lamps({work.points, *work.paths, rays}, request.tolerance_pct / 100.0,
+                     [&](const Sensors& places, auto, SensorIlluminance& values) {
+                       sent += add_lamp_light(places, rays, budget, request.seed, progress, values);
+                     });
+  add_reflected(lamps, light.values);
   return sent;
 }
 

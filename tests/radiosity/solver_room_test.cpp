@@ -95,8 +95,8 @@ TEST(Radiosity, PixelsInCreasesSeeHowTheLightOfLongElementsVaries) {
     const InteriorLight light = interior.light({}, quiet);
     const Sensors points = sensors_of_room(table, table.text(row, "room"));
     SensorIlluminance values(points.size());
-    interior.add_reflected_to_pixels(points, light, values, quiet);
-    interior.add_lamps(points, light, false, values);
+    interior.add_reflected_to_pixels(points, 1, light, values, quiet);
+    interior.add_lamps(points, light, false, values, quiet);
     EXPECT_LE(worst_error(table, row, values), 0.01);
   }
 }
