@@ -3,6 +3,7 @@
 // TENKU_FUZZ_SECONDS  for all readers together (default 2)
 // TENKU_FUZZ_SEED     of the changes (default 1); the same seed makes the same files
 // TENKU_FUZZ_FORMAT   one name of the corpus alone, such as a.glb
+// TENKU_FUZZ_SEEDS    a folder: the corpus is written there, for tests/robustness/fuzz/fuzz.sh
 //
 // A file that brings the program down is left in the temporary folder.
 #include <gtest/gtest.h>
@@ -10,6 +11,8 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -127,6 +130,11 @@ TEST(Mutations, ReadersReadOrRefuseThemInTime) {
     if (only == nullptr || sample.name == only) samples.push_back(std::move(sample));
   }
   ASSERT_FALSE(samples.empty());
+  if (const char* seeds = std::getenv("TENKU_FUZZ_SEEDS")) {
+    for (const Sample& sample : samples) {
+      std::ofstream(std::filesystem::path(seeds) / sample.name, std::ios::binary) << sample.text;
+    }
+  }
   const TemporaryFolder folder;
   for (std::size_t s = 0; s < samples.size(); ++s) {
     EXPECT_EQ(refusal_of(folder.write(samples[s].name, samples[s].text)), "") << samples[s].name;
