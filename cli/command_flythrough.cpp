@@ -38,9 +38,12 @@ std::vector<std::array<std::string, 2>> scene_settings(const LitSceneOptions& ho
   for (const std::string& file : how.scene.terrain) terrain += sha256_of_file(file) + " ";
   if (!terrain.empty())
     terrain += fmt::format("{} {:g} %", how.scene.on_terrain, how.tolerance_pct);
+  std::string around = how.scene.around;
+  if (!around.empty()) around += fmt::format(" {:g} %", how.tolerance_pct);
   return {{"materials_sha256", materials.empty() ? "" : sha256_of_file(materials)},
           {"ground", how.scene.ground},
           {"terrain", terrain},
+          {"around", around},
           {"building_lod", how.scene.building_lod}};
 }
 

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/finding_json.h"
 #include "cli/lit_scene_options.h"
 #include "cli/option_list.h"
 #include "cli/plan_output.h"
@@ -62,12 +63,18 @@ int plan(const PlanOptions& options, const CommandContext& context) {
   const ViewPlan made =
       has_sensors ? plan_sensors(options, lit, context) : plan_picture(options, lit, context);
   if (context.options.json) {
+    nlohmann::ordered_json findings = nlohmann::ordered_json::array();
+    for (const Finding& finding : lit.scene().findings) findings.push_back(json_of(finding));
     const nlohmann::ordered_json json{{"triangles", lit.soup().size()},
                                       {"predicted_s", predicted_s(made)},
                                       {"reflected_s", made.reflection_s},
-                                      {"plan", json_of(made.regions)}};
+                                      {"plan", json_of(made.regions)},
+                                      {"findings", std::move(findings)}};
     fmt::print("{}\n", json.dump(2));
     return kDone;
+  }
+  for (const Finding& finding : lit.scene().findings) {
+    if (finding.code.starts_with("tiles_")) fmt::print("{}; {}\n", finding.what, finding.repair);
   }
   fmt::print("{} triangles, {}\n{}\n", lit.soup().size(),
              has_sensors ? "sensors as given" : "a picture", table_of(made.regions));

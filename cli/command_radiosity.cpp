@@ -143,8 +143,7 @@ class RadiosityRun {
   void place_sensors() {
     if (options_.work_plane) {
       sensors_ = work_plane(lit_, *options_.work_plane, options_.spacing_m);
-      in_file_ = sensors_;
-      for (Vec3& at : in_file_.position) at = lit_.scene().frame.to_file(at);
+      in_file_ = lit_.to_file(sensors_);
     } else {
       in_file_ = read_sensor_file(options_.sensors);
       sensors_ = lit_.to_local(in_file_);

@@ -37,6 +37,10 @@ void add_scene_options(OptionList& app, SceneOptions& options) {
   app.add_option(
       "--on-terrain", options.on_terrain,
       "auto (moves buildings onto the terrain if all stand at one height), keep or move");
+  app.add_option(
+      "--around", options.around,
+      "x,y in the coordinates of the file, and metres: grids lie within that of it to east, "
+      "west, north and south, and of a folder the tiles are read that matter there");
   app.add_flag("--strict", options.strict,
                "refuse a scene of which something would be mended, left out or guessed");
   app.add_option("--building-lod", options.building_lod,
@@ -55,6 +59,7 @@ ReadOptions read_options(const SceneOptions& options) {
   read.terrain.assign(options.terrain.begin(), options.terrain.end());
   read.on_terrain = on_terrain_named(options.on_terrain);
   read.strict = options.strict;
+  if (!options.around.empty()) read.around = PlaceLookedAt::parse(options.around);
   if (!options.materials.empty()) read.materials = options.materials;
   return read;
 }

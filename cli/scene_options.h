@@ -18,6 +18,7 @@ struct SceneOptions {
   double rotate_deg = 0.0, scale = 1.0;
   std::vector<std::string> terrain;  ///< paths
   std::string on_terrain = "auto";
+  std::string around;  ///< `x,y,half`, or empty
   bool strict = false;
 };
 

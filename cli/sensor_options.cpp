@@ -43,8 +43,7 @@ PlacedSensors place_sensors(const SensorOptions& options, const LitScene& lit) {
   }
   placed.grid = lit.grid(words_of(options.grid), options.spacing_m);
   placed.sensors = placed.grid->sensors;
-  placed.in_file = placed.sensors;
-  for (Vec3& position : placed.in_file.position) position = lit.scene().frame.to_file(position);
+  placed.in_file = lit.to_file(placed.sensors);
   return placed;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "core/error.h"
 #include "core/random.h"
@@ -20,6 +21,36 @@ struct Corners {
   Vec3 middle() const { return (1.0 / 3.0) * (a + b + c); }
   double longest_side() const { return std::max({length(b - a), length(c - b), length(a - c)}); }
 };
+
+/// How far a point lies inside the four sides of a square, metres.
+std::array<double, 4> depths(Vec3 p, const GroundSquare& square) {
+  return {square.half_m - (p.x - square.x), square.half_m + (p.x - square.x),
+          square.half_m - (p.y - square.y), square.half_m + (p.y - square.y)};
+}
+
+bool is_inside(const Corners& triangle, const GroundSquare& square) {
+  const std::array<Vec3, 3> corners{triangle.a, triangle.b, triangle.c};
+  return std::all_of(corners.begin(), corners.end(), [&](Vec3 corner) {
+    const auto depth = depths(corner, square);
+    return *std::min_element(depth.begin(), depth.end()) >= 0.0;
+  });
+}
+
+/// Source  I. E. Sutherland and G. W. Hodgman, "Reentrant polygon clipping", CACM 17(1), 1974.
+std::vector<Vec3> cut(const Corners& triangle, const GroundSquare& square) {
+  std::vector<Vec3> polygon{triangle.a, triangle.b, triangle.c};
+  for (std::size_t side = 0; side < 4; ++side) {
+    std::vector<Vec3> kept;
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const Vec3 p = polygon[k], q = polygon[(k + 1) % polygon.size()];
+      const double of_p = depths(p, square)[side], of_q = depths(q, square)[side];
+      if (of_p >= 0.0) kept.push_back(p);
+      if ((of_p >= 0.0) != (of_q >= 0.0)) kept.push_back(p + (of_p / (of_p - of_q)) * (q - p));
+    }
+    polygon = std::move(kept);
+  }
+  return polygon;
+}
 
 /// Adds the sensors and parts of one triangle.
 class GridBuilder {
@@ -116,14 +147,24 @@ class GridBuilder {
 }  // namespace
 
 void append_sensors(SensorGrid& grid, const TriangleSoup& soup,
-                    std::span<const std::uint32_t> triangles, double spacing_m) {
+                    std::span<const std::uint32_t> triangles, double spacing_m,
+                    const GroundSquare* within) {
   if (!(spacing_m > 0.0) || !std::isfinite(spacing_m)) {
     throw InputError("a spacing of " + std::to_string(spacing_m) + " m is not positive");
   }
   GridBuilder builder(grid, spacing_m);
   for (const std::uint32_t t : triangles) {
     const auto& [a, b, c] = soup.triangles[t];
-    builder.add(t, soup.surface_type[t], {soup.vertices[a], soup.vertices[b], soup.vertices[c]});
+    const Corners whole{soup.vertices[a], soup.vertices[b], soup.vertices[c]};
+    const SurfaceType type = soup.surface_type[t];
+    if (within == nullptr || is_inside(whole, *within)) {
+      builder.add(t, type, whole);
+      continue;
+    }
+    const std::vector<Vec3> part = cut(whole, *within);
+    for (std::size_t k = 2; k < part.size(); ++k) {
+      builder.add(t, type, {part[0], part[k - 1], part[k]});
+    }
   }
 }
 

@@ -29,10 +29,18 @@ struct SensorGrid {
   std::unordered_map<std::uint64_t, std::uint32_t> shared;  ///< cube and direction -> sensor
 };
 
+/// Upright over the ground, with sides to east and north; in the local frame.
+struct GroundSquare {
+  double x = 0.0, y = 0.0;  ///< of its middle
+  double half_m = 0.0;
+};
+
 /// Adds sensors on the front sides of the chosen triangles.
 /// @param spacing_m  largest distance between neighbours, metres
+/// @param within     seen from above: only what lies in it is covered; null: all
 /// @throws InputError if the spacing is not positive, or there would be over 50 million sensors
 void append_sensors(SensorGrid& grid, const TriangleSoup& soup,
-                    std::span<const std::uint32_t> triangles, double spacing_m);
+                    std::span<const std::uint32_t> triangles, double spacing_m,
+                    const GroundSquare* within = nullptr);
 
 }  // namespace tenku

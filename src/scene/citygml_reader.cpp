@@ -140,8 +140,7 @@ void CityGmlReader::note_crs(std::string_view name) {
   if (name.empty() || raw_.crs == name || other_crs_ == name || template_) return;
   if (raw_.crs.empty()) {
     raw_.crs = name;
-    raw_.has_registry_axes =
-        name.find("/def/crs/") != std::string_view::npos || name.starts_with("urn:ogc:def:crs");
+    raw_.has_registry_axes = names_registry_axes(name);
     return;
   }
   other_crs_ = name;

@@ -118,4 +118,8 @@ std::optional<GeometryProperty> geometry_property(std::string_view element) {
   return GeometryProperty{kind_of(name), digit - '0'};
 }
 
+bool names_registry_axes(std::string_view crs) {
+  return crs.find("/def/crs/") != std::string_view::npos || crs.starts_with("urn:ogc:def:crs");
+}
+
 }  // namespace tenku

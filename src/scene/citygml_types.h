@@ -27,4 +27,7 @@ struct GeometryProperty {
 /// `lod2Solid`, `lod0RoofEdge`, `lod1ImplicitRepresentation`: nothing if the name is none of these.
 std::optional<GeometryProperty> geometry_property(std::string_view element);
 
+/// Whether a name of a reference system stands for the order of axes in the registry.
+bool names_registry_axes(std::string_view crs);
+
 }  // namespace tenku

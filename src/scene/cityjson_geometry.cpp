@@ -46,6 +46,22 @@ LodLabel lod_of(Element geometry) {
   return label;
 }
 
+std::string crs_of_cityjson(simdjson::dom::element document) {
+  simdjson::dom::element metadata = document;
+  if (document["metadata"].get(metadata) != simdjson::SUCCESS) return {};
+  std::string_view text;
+  std::int64_t code = 0;
+  if (metadata["referenceSystem"].get(text) == simdjson::SUCCESS ||
+      metadata["crs"].get(text) == simdjson::SUCCESS) {
+    return std::string(text);
+  }
+  if (metadata["epsg"].get(code) == simdjson::SUCCESS ||
+      metadata["crs"]["epsg"].get(code) == simdjson::SUCCESS) {
+    return "EPSG:" + std::to_string(code);
+  }
+  return {};
+}
+
 int surface_depth(std::string_view type) {
   if (type == "MultiSurface" || type == "CompositeSurface") return 0;
   if (type == "Solid") return 1;

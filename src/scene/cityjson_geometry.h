@@ -28,6 +28,9 @@ struct CityJsonPlace {
 };
 [[noreturn]] void refuse(const CityJsonPlace& place, const std::string& what);
 
+/// Name of the reference system; empty if the metadata have none.
+std::string crs_of_cityjson(simdjson::dom::element document);
+
 /// How deep the surfaces of a geometry type are nested: 0 for MultiSurface and CompositeSurface,
 /// 1 for Solid, 2 for MultiSolid and CompositeSolid, -1 for points, lines and instances.
 int surface_depth(std::string_view geometry_type);

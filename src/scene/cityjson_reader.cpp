@@ -50,7 +50,6 @@ class CityJsonReader {
  private:
   CityJsonPlace nowhere() const { return {name_, {}}; }
   void read_transform(element document);
-  void read_crs(element document);
   void read_templates(element document);
   void read_vertices(element document);
   Vec3 read_point(element point, const CityJsonPlace& place) const;
@@ -98,7 +97,7 @@ void CityJsonReader::read_header(element document, const std::string& format) {
   }
   raw_.scene.format = format + " " + version_of(document, raw_);
   read_transform(document);
-  read_crs(document);
+  raw_.crs = crs_of_cityjson(document);
   read_templates(document);
 }
 
@@ -114,20 +113,6 @@ void CityJsonReader::read_transform(element document) {
   translate_ = read_point(translate, {name_, {}});
   if (scale_.x == 0.0 || scale_.y == 0.0 || scale_.z == 0.0) {
     refuse(nowhere(), "'scale' of 'transform' has a zero");
-  }
-}
-
-void CityJsonReader::read_crs(element document) {
-  element metadata = document;
-  if (document["metadata"].get(metadata) != simdjson::SUCCESS) return;
-  std::string_view text;
-  std::int64_t code = 0;
-  if (metadata["referenceSystem"].get(text) == simdjson::SUCCESS ||
-      metadata["crs"].get(text) == simdjson::SUCCESS) {
-    raw_.crs = text;
-  } else if (metadata["epsg"].get(code) == simdjson::SUCCESS ||
-             metadata["crs"]["epsg"].get(code) == simdjson::SUCCESS) {
-    raw_.crs = "EPSG:" + std::to_string(code);
   }
 }
 

@@ -79,4 +79,9 @@ Vec3 FileFrame::direction_to_local(Vec3 direction) const {
   return normalized(apply(rows_, latitude_first_ ? swapped(direction) : direction));
 }
 
+Vec3 FileFrame::direction_to_file(Vec3 direction) const {
+  const Vec3 along = normalized(apply(inverse_, direction));
+  return latitude_first_ ? swapped(along) : along;
+}
+
 }  // namespace tenku

@@ -41,6 +41,8 @@ class FileFrame {
   /// Unit vector in local axes of a direction in the axes of the file, of any length but zero. For
   /// a file in degrees the axes are east and north in the file's order.
   Vec3 direction_to_local(Vec3 file_direction) const;
+  /// The other way round.
+  Vec3 direction_to_file(Vec3 local_direction) const;
 
  private:
   Vec3 origin_{};

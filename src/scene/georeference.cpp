@@ -4,6 +4,7 @@
 #include <proj.h>
 
 #include <GeographicLib/Geodesic.hpp>
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <map>
@@ -74,11 +75,20 @@ std::string proj_name(const std::string& text) {
   return rest.substr(0, slash) + ":" + rest.substr(last + 1);
 }
 
+/// An identifier (`EPSG:1`, a URN, both also compound), `+proj` or WKT. In what is none of these
+/// PROJ looks for a title, which takes tenths of a second a name.
+bool is_formal(const std::string& name) {
+  if (name.starts_with('+') || name.find('[') != std::string::npos) return true;
+  if (name.find(':') == std::string::npos) return false;
+  return std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 ||
+           std::string_view(":,+-_.").find(static_cast<char>(c)) != std::string_view::npos;
+  });
+}
+
 Projection create(PJ_CONTEXT* context, const std::string& text) {
   const std::string name = without_japanese_heights(proj_name(text));
-  // Without a colon (`EPSG:1`, a URN), a sign (`+proj`) or a bracket (WKT) PROJ guesses by title.
-  const bool is_formal = name.find_first_of(":+[") != std::string::npos;
-  Projection crs(is_formal ? proj_create(context, name.c_str()) : nullptr);
+  Projection crs(is_formal(name) ? proj_create(context, name.c_str()) : nullptr);
   if (!crs || proj_is_crs(crs.get()) == 0) {
     throw InputError("'" + text +
                      "' is not a coordinate reference system that PROJ knows; give "

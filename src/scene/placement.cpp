@@ -50,21 +50,6 @@ bool contains(const Crs& crs, double latitude, double longitude, double beyond =
          latitude <= crs.north + beyond;
 }
 
-bool is_latitude_first(const Crs& crs, Vec3 centre, RawScene& raw) {
-  const bool first = contains(crs, centre.x, centre.y), second = contains(crs, centre.y, centre.x);
-  if (!first && !second) {
-    throw InputError("(" + std::to_string(centre.x) + ", " + std::to_string(centre.y) +
-                     ") is no place in " + crs.id + " (" + crs.name + ")");
-  }
-  // Where both orders are possible a name of the registry decides; else longitude is first.
-  const bool latitude_first =
-      first && (!second || (raw.has_registry_axes && is_northing_first(crs.id)));
-  raw.findings.add(
-      {"degrees", Severity::Note, "", "", "the coordinates are degrees (" + crs.id + ")",
-       latitude_first ? "read as latitude, longitude" : "read as longitude, latitude"});
-  return latitude_first;
-}
-
 double median(const std::vector<Vec3>& points, double Vec3::*coordinate) {
   std::vector<double> values;
   values.reserve(points.size());
@@ -103,7 +88,10 @@ void place_geographic(RawScene& raw, const Crs& crs, const ReadOptions& options)
   const Extent box = raw.scene.extent;
   Vec3 centre = 0.5 * (box.min + box.max);
   centre = {1e-6 * std::round(1e6 * centre.x), 1e-6 * std::round(1e6 * centre.y), 0.0};
-  const bool latitude_first = is_latitude_first(crs, centre, raw);
+  const bool latitude_first = is_latitude_first(crs, centre, raw.has_registry_axes);
+  raw.findings.add(
+      {"degrees", Severity::Note, "", "", "the coordinates are degrees (" + crs.id + ")",
+       latitude_first ? "read as latitude, longitude" : "read as longitude, latitude"});
   const double latitude = latitude_first ? centre.x : centre.y;
   const double longitude = latitude_first ? centre.y : centre.x;
   raw.scene.frame = FileFrame::geographic(centre, latitude_first, options.rotate);
@@ -215,6 +203,16 @@ void place_by_crs(RawScene& raw, const Crs& crs, GridMap map, const ReadOptions&
 }
 
 }  // namespace
+
+bool is_latitude_first(const Crs& crs, Vec3 at, bool has_registry_axes) {
+  const bool first = contains(crs, at.x, at.y), second = contains(crs, at.y, at.x);
+  if (!first && !second) {
+    throw InputError("(" + std::to_string(at.x) + ", " + std::to_string(at.y) +
+                     ") is no place in " + crs.id + " (" + crs.name + ")");
+  }
+  // Where both orders are possible a name of the registry decides; else longitude is first.
+  return first && (!second || (has_registry_axes && is_northing_first(crs.id)));
+}
 
 void place_scene(RawScene& raw, const ReadOptions& options) {
   Scene& scene = raw.scene;

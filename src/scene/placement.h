@@ -5,6 +5,12 @@
 
 namespace tenku {
 
+struct Crs;
+
+/// Whether a point in degrees is latitude, longitude rather than longitude, latitude.
+/// @throws InputError if by neither it lies where the reference system is used
+bool is_latitude_first(const Crs& crs, Vec3 at, bool has_registry_axes);
+
 /// Chooses the local origin and sets `frame`, `georeference` and `extent` of the scene, and turns
 /// its vertices into local metres.
 ///

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,7 @@
 #include "scene/input_file.h"
 #include "scene/materials.h"
 #include "scene/mesh_readers.h"
+#include "scene/near_tiles.h"
 #include "scene/obj_reader.h"
 #include "scene/placement.h"
 #include "scene/radiance_reader.h"
@@ -29,12 +31,15 @@
 #include "scene/terrain.h"
 #include "scene/terrain_reader.h"
 #include "scene/text_cursor.h"
+#include "scene/tile_head.h"
 #include "scene/tileset_reader.h"
 
 namespace tenku {
 namespace {
 
 namespace fs = std::filesystem;
+
+const std::string kCoarseLod = "1";  // of tiles far away
 
 enum class Format { CityJson, CityGml, Obj, Ply, Stl, Gltf, Honeybee, Tileset, Radiance, Terrain };
 
@@ -114,16 +119,47 @@ bool is_city_file(const fs::path& path) {
 
 bool is_terrain_file(const fs::path& path) { return known_format(path) == Format::Terrain; }
 
+RawScene read_tiles(std::span<const fs::path> tiles, const ReadOptions& options,
+                    Progress& progress) {
+  RawScene city = read_file(tiles[0], options, progress);
+  for (const fs::path& tile : tiles.subspan(1)) {
+    append_tile(city, read_file(tile, options, progress), tile);
+  }
+  return city;
+}
+
+/// What changes the light at the place of the options.
+RawScene read_around(const std::vector<fs::path>& tiles, const ReadOptions& options,
+                     Progress& progress) {
+  std::vector<TileHead> heads;
+  for (const fs::path& tile : tiles) {
+    heads.push_back(format_of(tile) == Format::CityGml ? head_of_citygml(tile, progress)
+                                                       : head_of_cityjson(tile));
+    progress.stop_if_cancelled();
+  }
+  const TileChoice choice = choose_tiles(heads, *options.around, options);
+  std::vector<fs::path> whole, coarse;
+  for (std::size_t t = 0; t < tiles.size(); ++t) {
+    if (choice.use[t] == TileUse::Whole) whole.push_back(tiles[t]);
+    if (choice.use[t] == TileUse::Coarse) coarse.push_back(tiles[t]);
+  }
+  RawScene city = read_tiles(whole, options, progress);
+  ReadOptions at_lod_1 = options;
+  at_lod_1.building_lod = kCoarseLod;
+  for (const fs::path& tile : coarse) {
+    append_tile(city, read_file(tile, at_lod_1, progress), tile);
+  }
+  tell_of_tiles(choice, *options.around, options, city.findings);
+  return city;
+}
+
 /// A file, or a folder of tiles.
 RawScene read_raw(const fs::path& path, const ReadOptions& options, Progress& progress) {
   if (!fs::is_directory(path)) return read_file(path, options, progress);
   if (fs::exists(path / "tileset.json")) return read_tileset(path / "tileset.json", progress);
   const std::vector<fs::path> tiles = tiles_in(path, is_city_file);
-  RawScene city = read_file(tiles[0], options, progress);
-  for (std::size_t t = 1; t < tiles.size(); ++t) {
-    append_tile(city, read_file(tiles[t], options, progress), tiles[t]);
-  }
-  return city;
+  return options.around ? read_around(tiles, options, progress)
+                        : read_tiles(tiles, options, progress);
 }
 
 /// Those of the options, then those in the folder of the city.
@@ -147,6 +183,8 @@ void refuse_empty(const RawScene& raw, const fs::path& path, const char* which) 
   if (raw.scene.surfaces.size() > 0 && !raw.scene.vertices.empty()) return;
   throw InputError(path.string() + ": there are no surfaces" + which + " in it");
 }
+
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 // Sums and products of lengths stay finite below it, and no map, in whatever unit, reaches it.
 constexpr double kLargestCoordinate = 1e12;
@@ -201,6 +239,23 @@ GroundChoice GroundChoice::parse(const std::string& text) {
   const auto height = finite_number(text);
   if (!height) throw InputError("--ground is 'auto', 'none' or a height, not '" + text + "'");
   return {Kind::Height, *height};
+}
+
+PlaceLookedAt PlaceLookedAt::parse(const std::string& text) {
+  std::vector<double> numbers;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    numbers.push_back(finite_number(text.substr(begin, end - begin)).value_or(kNoNumber));
+    begin = end + 1;
+  }
+  const bool are_numbers = std::none_of(numbers.begin(), numbers.end(),
+                                        [](double number) { return std::isnan(number); });
+  if (numbers.size() != 3 || !are_numbers || !(numbers[2] > 0.0)) {
+    throw InputError(
+        "--around is x,y in the coordinates of the file and a distance in metres, not '" + text +
+        "'");
+  }
+  return {numbers[0], numbers[1], numbers[2]};
 }
 
 OnTerrain on_terrain_named(const std::string& text) {

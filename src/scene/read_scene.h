@@ -30,6 +30,16 @@ enum class OnTerrain { Auto, Keep, Move };
 /// @throws InputError otherwise
 OnTerrain on_terrain_named(const std::string& text);
 
+/// Where a scene is looked at: a square with sides to east and north.
+struct PlaceLookedAt {
+  double x = 0.0, y = 0.0;  ///< of its middle, in the coordinates of the file
+  double half_m = 0.0;      ///< half of a side
+
+  /// @param text  `x,y,half`
+  /// @throws InputError unless it is three numbers, the last positive
+  static PlaceLookedAt parse(const std::string& text);
+};
+
 enum class UpAxis { ByFormat, Y, Z };
 
 /// How to read what the file does not say itself.
@@ -44,6 +54,8 @@ struct ReadOptions {
   OnTerrain on_terrain = OnTerrain::Auto;
   double tolerance_pct = 2.0;                      ///< to which terrain around the scene is thinned
   std::optional<std::filesystem::path> materials;  ///< TOML
+  /// Of a folder of tiles those are read that change the light here.
+  std::optional<PlaceLookedAt> around;
   bool strict = false;           ///< refuse what would be mended, left out or guessed
   std::optional<Location> site;  ///< of the local origin, in place of what the file says
 };

@@ -18,8 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A horizon that is higher by an angle all around takes 4 / pi of it from the light of a wall.
-constexpr double kShareOfTolerance = 0.1;
 constexpr double kWallPerRadian = 4.0 / std::numbers::pi;
 constexpr double kEarth_m = 6371008.8;  // mean radius
 constexpr double kRefraction = 0.13;    // of the curvature, for light along the ground
@@ -163,11 +161,15 @@ void append_triangles(RawScene& raw, const std::string& name, const std::vector<
 
 }  // namespace
 
+double skyline_angle(double tolerance_pct) {
+  return kSkylineShare * tolerance_pct / 100.0 / kWallPerRadian;
+}
+
 void add_terrain(RawScene& raw, const std::vector<fs::path>& files, const ReadOptions& options,
                  Progress& progress) {
   if (files.empty()) return;
   const Extent city = extent_of_surfaces(raw.scene);
-  const double angle = kShareOfTolerance * options.tolerance_pct / 100.0 / kWallPerRadian;
+  const double angle = skyline_angle(options.tolerance_pct);
   for (const fs::path& path : files) {
     LocalTerrain terrain(raw, path, city);
     progress.stop_if_cancelled();

@@ -9,6 +9,12 @@
 
 namespace tenku {
 
+/// Of the tolerance, that each part of the far skyline may take.
+inline constexpr double kSkylineShare = 0.1;
+/// A skyline that is wrong by this all around takes `kSkylineShare` of the tolerance from the light
+/// of a wall, radians: a horizon that is higher by an angle takes 4 / pi of it.
+double skyline_angle(double tolerance_pct);
+
 /// Adds elevation models to a scene that is placed, each as one object of type
 /// `TINRelief`, and sets the buildings on them.
 ///

@@ -66,6 +66,10 @@ LitScene::LitScene(const std::filesystem::path& file, const ReadOptions& options
     : scene_(read_scene(file, options, progress)),
       soup_(std::make_unique<TriangleSoup>(flatten(scene_))) {
   progress.stop_if_cancelled();
+  if (options.around) {
+    const Vec3 middle = scene_.frame.to_local({options.around->x, options.around->y, 0.0});
+    place_ = {middle.x, middle.y, options.around->half_m};
+  }
   progress.begin("tree of boxes", 0);
   engines_ = std::make_unique<Engines>(*soup_, scene_.materials, gl);
   progress.end(std::to_string(soup_->size()) + " triangles");
@@ -87,11 +91,27 @@ Sensors LitScene::to_local(const Sensors& in_file) const {
   return local;
 }
 
+Sensors LitScene::to_file(const Sensors& local) const {
+  Sensors in_file;
+  for (std::size_t i = 0; i < local.size(); ++i) {
+    in_file.position.push_back(scene_.frame.to_file(local.position[i]));
+    in_file.normal.push_back(scene_.frame.direction_to_file(local.normal[i]));
+  }
+  return in_file;
+}
+
 Extent LitScene::extent() const {
   Extent box;
   for (std::size_t t = 0; t < soup_->size(); ++t) {
     if (scene_.objects[soup_->object[t]].id == kGroundObjectId) continue;
     for (const std::uint32_t v : soup_->triangles[t]) box.add(soup_->vertices[v]);
+  }
+  if (place_) {
+    const auto hold = [&](double Vec3::*axis, double middle) {
+      box.min.*axis = std::max(box.min.*axis, middle - place_->half_m);
+      box.max.*axis = std::min(box.max.*axis, middle + place_->half_m);
+    };
+    hold(&Vec3::x, place_->x), hold(&Vec3::y, place_->y);
   }
   return box;
 }
@@ -115,10 +135,12 @@ SensorGrid LitScene::grid(std::span<const std::string> surfaces, double spacing_
     given.push_back(t);
     given_area += area_m2(*soup_, t);
   }
+  const GroundSquare* within = place_ ? &*place_ : nullptr;
+  if (place_) given_area = std::min(given_area, 4.0 * place_->half_m * place_->half_m);
   SensorGrid grid;
-  append_sensors(grid, *soup_, own, spacing_m);
+  append_sensors(grid, *soup_, own, spacing_m, within);
   append_sensors(grid, *soup_, given,
-                 std::max(spacing_m, std::sqrt(given_area / kGivenGroundSensors)));
+                 std::max(spacing_m, std::sqrt(given_area / kGivenGroundSensors)), within);
   if (grid.sensors.size() == 0)
     throw InputError("the scene has no surfaces of the kinds asked for");
   return grid;

@@ -42,20 +42,27 @@ class LitScene {
   const Sky& sky() const { return sky_; }
   const DaylightSource& source() const { return source_; }
   std::optional<Location> site() const;
-  /// Of the triangles in the local frame, without the ground that tenku gave.
+  /// Of the triangles in the local frame, without the ground that tenku gave; east and north that
+  /// of the place looked at, if one was given.
   Extent extent() const;
+  /// The place of `ReadOptions::around`.
+  const std::optional<GroundSquare>& place_looked_at() const { return place_; }
 
   /// Sensors given in the coordinates of the scene file, in the local frame.
   Sensors to_local(const Sensors& in_file) const;
+  /// The other way round.
+  Sensors to_file(const Sensors& local) const;
 
   /// Sensors on surfaces by the names of `--grid`: `ground`, `roofs`, `walls`, `windows`, or a
   /// surface type.
-  /// The ground that tenku gave gets a wider spacing of its own.
+  /// The ground that tenku gave gets a wider spacing of its own. Only in the place looked at, if
+  /// one was given.
   /// @throws InputError if a name is not known or nothing bears it
   SensorGrid grid(std::span<const std::string> surfaces, double spacing_m) const;
 
  private:
   Scene scene_;
+  std::optional<GroundSquare> place_;
   std::unique_ptr<TriangleSoup> soup_;
   std::unique_ptr<Engines> engines_;
   Sky sky_;

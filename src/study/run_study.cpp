@@ -45,6 +45,7 @@ ReadOptions read_options_of(const Study& study) {
   options.ground = GroundChoice::parse(scene.ground);
   options.terrain = scene.terrain;
   options.on_terrain = on_terrain_named(scene.on_terrain);
+  options.around = scene.around;
   options.up = scene.up == "y" ? UpAxis::Y : scene.up == "z" ? UpAxis::Z : UpAxis::ByFormat;
   options.scale = scene.scale;
   options.rotate = scene.rotate;

@@ -30,7 +30,8 @@ bool are_lamps_hard(const LitScene& lit) {
 }  // namespace
 
 bool is_room(const LitScene& lit) {
-  return lit.soup().size() <= kRoomTriangles && lit.extent().longest_side() <= kRoom_m;
+  return !lit.place_looked_at() && lit.soup().size() <= kRoomTriangles &&
+         lit.extent().longest_side() <= kRoom_m;
 }
 
 SceneReflection::SceneReflection(const LitScene& lit, Reflection how) : lit_(lit), how_(how) {

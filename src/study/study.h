@@ -11,6 +11,7 @@
 #include "core/units.h"
 #include "core/vec3.h"
 #include "illuminance/light_method.h"
+#include "scene/read_scene.h"
 #include "site/location.h"
 #include "sky_models/sky_partition.h"
 #include "view/mirror_method.h"
@@ -27,6 +28,7 @@ struct StudyScene {
   std::string ground = "auto";   ///< `auto`, `none`, or a height in the coordinates of the file
   std::vector<std::filesystem::path> terrain;  ///< elevation models beside the scene
   std::string on_terrain = "auto";             ///< `auto`, `keep` or `move`
+  std::optional<PlaceLookedAt> around;
   std::string up;                ///< `y`, `z`, or empty: by the format
   double scale = 1.0;            ///< metres per unit of the file
   Angle rotate;                  ///< clockwise, seen from above

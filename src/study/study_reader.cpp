@@ -25,7 +25,9 @@ struct KnownTable {
 // docs/study.md has the same tables and keys; a test compares them.
 const std::vector<KnownTable>& known_tables() {
   static const std::vector<KnownTable> kTables{
-      {"scene", {"file", "lod", "materials", "crs", "ground", "terrain", "on_terrain", "up", "scale", "rotate_deg"}},
+      {"scene",
+       {"file", "lod", "materials", "crs", "ground", "terrain", "on_terrain", "around", "up",
+        "scale", "rotate_deg"}},
       {"site", {"latitude_deg", "longitude_deg", "elevation_m"}},
       {"time", {"at", "zone"}},
       {"sun", {"altitude_deg", "azimuth_deg", "illuminance_lx"}},
@@ -90,6 +92,14 @@ std::string ground_of(const TomlSection& in) {
   return *text;
 }
 
+std::optional<PlaceLookedAt> around_of(const TomlSection& in) {
+  const auto point = in.point("around");
+  if (!point) return std::nullopt;
+  const PlaceLookedAt place{point->x, point->y, point->z};
+  if (!(place.half_m > 0.0)) in.refuse("around", "the last is a distance in metres, above 0");
+  return place;
+}
+
 StudyScene scene_of(const TomlSection& in, const fs::path& folder) {
   static constexpr std::array<std::string_view, 2> kUp{"y", "z"};
   static constexpr std::array<std::string_view, 3> kOnTerrain{"auto", "keep", "move"};
@@ -102,6 +112,7 @@ StudyScene scene_of(const TomlSection& in, const fs::path& folder) {
   scene.ground = ground_of(in);
   if (const auto file = in.text("terrain")) scene.terrain = {folder / *file};
   scene.on_terrain = in.choice("on_terrain", kOnTerrain).value_or("auto");
+  scene.around = around_of(in);
   scene.up = in.choice("up", kUp).value_or("");
   scene.scale = in.number("scale", {0.0, 1e6, true}).value_or(1.0);
   scene.rotate = angle(in, "rotate_deg", {-360.0, 360.0}).value_or(Angle());
