@@ -1,6 +1,8 @@
 #include "scene/citygml_reader.h"
 
 #include <cctype>
+#include <functional>
+#include <map>
 #include <optional>
 #include <unordered_map>
 
@@ -15,6 +17,7 @@ namespace tenku {
 namespace {
 
 constexpr std::array<double, 16> kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+constexpr std::size_t kMostCrsNames = 8;  // other than the first, that are looked up
 constexpr const char* kNumberSeparators = " \t\r\n,";
 
 /// What holds inside an element; what is inside it begins with the same.
@@ -76,7 +79,10 @@ class CityGmlReader : public XmlVisitor {
   GmlMember member_;
   std::vector<Level> levels_;
   std::vector<std::string> ids_;  ///< [level]
-  std::string other_crs_;         ///< the last one that is not the first
+  std::string crs_id_;            ///< of `raw_.crs`, once another name has been met
+  /// Whether names other than the first mean the same. Few: in what is no reference system PROJ
+  /// looks for a title, which takes a tenth of a second a name.
+  std::map<std::string, bool, std::less<>> is_same_crs_;
   std::string text_;
   std::vector<Vec3> ring_;
   std::uint32_t first_object_ = 0;  ///< of the member being read
@@ -137,14 +143,16 @@ void CityGmlReader::begin_document(std::string_view name, const XmlAttributes& a
 
 void CityGmlReader::note_crs(std::string_view name) {
   // Templates have a frame of their own.
-  if (name.empty() || raw_.crs == name || other_crs_ == name || template_) return;
+  if (name.empty() || raw_.crs == name || template_) return;
   if (raw_.crs.empty()) {
     raw_.crs = name;
     raw_.has_registry_axes = names_registry_axes(name);
     return;
   }
-  other_crs_ = name;
-  if (crs_id(raw_.crs) == crs_id(other_crs_)) return;
+  if (is_same_crs_.contains(name) || is_same_crs_.size() == kMostCrsNames) return;
+  if (crs_id_.empty()) crs_id_ = crs_id(raw_.crs);
+  const std::string other(name);
+  if (is_same_crs_.emplace(other, crs_id(other) == crs_id_).first->second) return;
   raw_.findings.add(
       {"mixed_crs", Severity::Error, "", "",
        "coordinates are in " + tenku::quoted(raw_.crs) + " and in " + tenku::quoted(name),

@@ -24,8 +24,8 @@ struct StudyScene {
   std::filesystem::path file;
   std::string building_lod;  ///< empty: the highest of each object; or `1`, `2.2`
   std::optional<std::filesystem::path> materials;
-  std::string crs;               ///< `EPSG:N`, in place of what the file says; or empty
-  std::string ground = "auto";   ///< `auto`, `none`, or a height in the coordinates of the file
+  std::string crs;              ///< `EPSG:N`, in place of what the file says; or empty
+  std::string ground = "auto";  ///< `auto`, `none`, or a height in the coordinates of the file
   std::vector<std::filesystem::path> terrain;  ///< elevation models beside the scene
   std::string on_terrain = "auto";             ///< `auto`, `keep` or `move`
   std::optional<PlaceLookedAt> around;
