@@ -268,16 +268,6 @@ std::string GltfScene::feature_name(double feature) const {
   return features_.tile + "/" + std::to_string(static_cast<long long>(std::llround(feature)));
 }
 
-std::uint32_t GltfScene::object_named(const std::string& id) {
-  const auto next = static_cast<std::uint32_t>(raw_.scene.objects.size());
-  const auto [at, is_new] = objects_.try_emplace(id, next);
-  if (is_new) {
-    raw_.scene.objects.push_back({id, ""});
-    raw_.is_building.push_back(0);
-  }
-  return at->second;
-}
-
 void GltfScene::add_primitive(const Primitive& primitive, const std::string& object,
                               const Affine& frame) {
   const JsonSource& source = document_->source();
@@ -302,13 +292,13 @@ void GltfScene::add_primitive(const Primitive& primitive, const std::string& obj
   scene.has_terrain |= facts.type == SurfaceType::Ground || facts.type == SurfaceType::Road;
   const bool by_feature =
       primitive.features.size() == primitive.points.size() && !primitive.features.empty();
-  if (!by_feature) facts.object = object_named(object);
+  if (!by_feature) facts.object = objects_.find_or_add(raw_, object);
   double last = std::nan("");
   const bool is_mirrored = frame.determinant() < 0.0;
   for (auto [a, b, c] : triangles) {
     if (by_feature && primitive.features[a] != last) {
       last = primitive.features[a];
-      facts.object = object_named(feature_name(last));
+      facts.object = objects_.find_or_add(raw_, feature_name(last));
     }
     if (is_mirrored) std::swap(b, c);
     for (const std::uint32_t v : {a, b, c}) scene.surfaces.vertex.push_back(first + v);

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "core/progress.h"
@@ -50,12 +49,11 @@ class GltfScene {
   void read_primitive(JsonElement primitive, Primitive& to);
   void add_primitive(const Primitive& primitive, const std::string& object, const Affine& frame);
   std::string feature_name(double feature) const;
-  std::uint32_t object_named(const std::string& id);
   void tell(Severity severity, const char* code, const std::string& what, const char* repair);
 
   Progress& progress_;
   RawScene raw_;
-  std::unordered_map<std::string, std::uint32_t> objects_;
+  ObjectsByName objects_;
   GltfDocument* document_ = nullptr;  ///< being read
   FeatureNames features_;
   std::uint32_t first_material_ = 0;  ///< of the document, among those of the scene

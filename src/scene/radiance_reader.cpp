@@ -88,13 +88,13 @@ class RadianceReader {
   void read_arguments(Primitive& primitive);
   void add_material(const Primitive& primitive);
   void add_polygon(const Primitive& primitive);
-  std::uint32_t object_named(const std::string& id);
   void tell(Severity severity, const char* code, const std::string& what, const char* repair);
 
   std::string file_;
   TextCursor cursor_;
   RawScene raw_;
-  std::unordered_map<std::string, std::uint32_t> objects_, materials_;
+  ObjectsByName objects_;
+  std::unordered_map<std::string, std::uint32_t> materials_;
 };
 
 void RadianceReader::tell(Severity severity, const char* code, const std::string& what,
@@ -185,16 +185,6 @@ void RadianceReader::add_material(const Primitive& primitive) {
   }
 }
 
-std::uint32_t RadianceReader::object_named(const std::string& id) {
-  const auto next = static_cast<std::uint32_t>(raw_.scene.objects.size());
-  const auto [at, is_new] = objects_.try_emplace(id, next);
-  if (is_new) {
-    raw_.scene.objects.push_back({id, ""});
-    raw_.is_building.push_back(0);
-  }
-  return at->second;
-}
-
 void RadianceReader::add_polygon(const Primitive& primitive) {
   if (primitive.numbers.size() % 3 != 0 || primitive.numbers.size() < 9) {
     cursor_.refuse("polygon '" + primitive.id + "' has " +
@@ -203,7 +193,7 @@ void RadianceReader::add_polygon(const Primitive& primitive) {
   }
   add_rings(raw_.scene, rings_of(primitive.numbers));
   SurfaceFacts facts;
-  facts.object = object_named(primitive.id);
+  facts.object = objects_.find_or_add(raw_, primitive.id);
   facts.type = type_by_name(primitive.modifier);
   if (facts.type == SurfaceType::Unknown) facts.type = type_by_name(primitive.id);
   const auto material = materials_.find(primitive.modifier);

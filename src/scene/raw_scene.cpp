@@ -20,4 +20,14 @@ void end_surface(Surfaces& surfaces, const SurfaceFacts& facts) {
   surfaces.shell.push_back(facts.shell);
 }
 
+std::uint32_t ObjectsByName::find_or_add(RawScene& raw, const std::string& id) {
+  const auto next = static_cast<std::uint32_t>(raw.scene.objects.size());
+  const auto [at, is_new] = index_.try_emplace(id, next);
+  if (is_new) {
+    raw.scene.objects.push_back({id, ""});
+    raw.is_building.push_back(0);
+  }
+  return at->second;
+}
+
 }  // namespace tenku

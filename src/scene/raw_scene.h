@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -63,6 +64,15 @@ struct RawScene {
   const std::string& object_of(std::size_t s) const {
     return scene.objects[scene.surfaces.object[s]].id;
   }
+};
+
+/// Objects without a type that come by name, one for each.
+class ObjectsByName {
+ public:
+  std::uint32_t find_or_add(RawScene& raw, const std::string& id);
+
+ private:
+  std::unordered_map<std::string, std::uint32_t> index_;
 };
 
 /// Appends the vertices of a ring; call `end_ring` of the surface after each, `end_surface` last.
