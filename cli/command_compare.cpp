@@ -91,8 +91,8 @@ CsvTable csv_of(const SceneComparison& made, const LitScene& lit) {
   CsvTable table(
       "x,y,z,total_lux,error_lux,other_total_lux,other_error_lux,difference_pct,error_pct,sky_view,"
       "other_sky_view");
-  for (std::size_t k = 0; k < made.place.size(); ++k) {
-    const Vec3 at = lit.scene().map_frame.to_file(made.place[k]);
+  for (std::size_t k = 0; k < made.plan.sensors.size(); ++k) {
+    const Vec3 at = lit.scene().map_frame.to_file(made.plan.sensors.position[k]);
     table.add(at.x).add(at.y).add(at.z);
     table.add(made.first.total_lux(k)).add(made.first.error_lux[k]);
     table.add(made.second.total_lux(k)).add(made.second.error_lux[k]);
@@ -121,14 +121,15 @@ MapRaster raster_of(const SceneComparison& made, const LitScene& lit) {
   return raster;
 }
 
-Image8 picture_of(const SceneComparison& made, const CompareOptions& options) {
+Image8 picture_of(const SceneComparison& made, const ComparisonRow& all,
+                  const CompareOptions& options) {
   PlanMap map;
   map.title = "Where the other model is enough";
   map.caption =
       fmt::format("{}. Squares of {:.3g} m that are open in both; 95 % of them within {:.3g} %.",
                   options.with.empty() ? "Level of detail " + options.with_lod
                                        : fs::path(options.with).filename().string(),
-                  made.plan.grid.cell_m, comparison_table(made).front().p95_pct);
+                  made.plan.grid.cell_m, all.p95_pct);
   map.quantity = "Difference of the illuminance on the ground";
   map.unit = "%";
   map.grid = made.plan.grid;
@@ -152,7 +153,7 @@ int compare(const CompareOptions& options, const CommandContext& context) {
   const std::vector<ComparisonRow> rows = comparison_table(made);
   fs::create_directories(folder);
   csv_of(made, first).write(folder / "difference.csv");
-  write_png(folder / "difference.png", picture_of(made, options));
+  write_png(folder / "difference.png", picture_of(made, rows.front(), options));
   AtomicFile raster(folder / "difference.tif");
   map_writer().write_raster(raster.path(), raster_of(made, first));
   raster.commit();
@@ -163,7 +164,7 @@ int compare(const CompareOptions& options, const CommandContext& context) {
     fmt::print("{}\n", table_of(rows));
   }
   say(context.options, fmt::format("{} squares of {:.3g} m; {} more are covered in the other model",
-                                   made.place.size(), made.plan.grid.cell_m, made.covered));
+                                   made.plan.sensors.size(), made.plan.grid.cell_m, made.covered));
   return kDone;
 }
 

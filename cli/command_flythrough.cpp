@@ -117,8 +117,7 @@ void tell(const CommonOptions& options, const LitScene& lit, const FlyThroughRes
                               {"rays", result.rays},
                               {"light", result.how},
                               {"sky", lit.sky().description},
-                              {"findings", nlohmann::ordered_json::array()}};
-  for (const Finding& finding : result.findings) json["findings"].push_back(json_of(finding));
+                              {"findings", json_of(result.findings)}};
   fmt::print("{}\n", json.dump(2));
 }
 

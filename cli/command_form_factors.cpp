@@ -115,8 +115,7 @@ Json summary_of(const FormFactorCommandOptions& options, const Scene& scene,
     summary["to_backs"][faces.names[i]] = matrix.to_backs[i];
   }
   summary["reciprocity_defect"] = matrix.reciprocity_defect();
-  summary["diagnostics"] = Json::array();
-  for (const Finding& finding : scene.findings) summary["diagnostics"].push_back(json_of(finding));
+  summary["diagnostics"] = json_of(scene.findings);
   summary["error_max"] = *std::max_element(matrix.error.begin(), matrix.error.end());
   return summary;
 }

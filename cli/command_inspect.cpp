@@ -83,8 +83,7 @@ Json json_of(const Scene& scene, const Counts& counts) {
     out["surface_types"][std::string(name_of(static_cast<SurfaceType>(t)))] =
         counts.surface_types[t];
   }
-  out["findings"] = Json::array();
-  for (const Finding& finding : scene.findings) out["findings"].push_back(json_of(finding));
+  out["findings"] = json_of(scene.findings);
   return out;
 }
 

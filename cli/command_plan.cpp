@@ -63,13 +63,11 @@ int plan(const PlanOptions& options, const CommandContext& context) {
   const ViewPlan made =
       has_sensors ? plan_sensors(options, lit, context) : plan_picture(options, lit, context);
   if (context.options.json) {
-    nlohmann::ordered_json findings = nlohmann::ordered_json::array();
-    for (const Finding& finding : lit.scene().findings) findings.push_back(json_of(finding));
     const nlohmann::ordered_json json{{"triangles", lit.soup().size()},
                                       {"predicted_s", predicted_s(made)},
                                       {"reflected_s", made.reflection_s},
                                       {"plan", json_of(made.regions)},
-                                      {"findings", std::move(findings)}};
+                                      {"findings", json_of(lit.scene().findings)}};
     fmt::print("{}\n", json.dump(2));
     return kDone;
   }

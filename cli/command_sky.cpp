@@ -75,13 +75,12 @@ nlohmann::ordered_json json_of(const Sky& sky, const SkyPartition& partition) {
   nlohmann::ordered_json summary{{"zenith_luminance_cd_m2", sky.luminance(kZenith).value()},
                                  {"horizontal_diffuse_lux", sky.horizontal_diffuse_lux},
                                  {"elements", partition.elements.size()},
-                                 {"diagnostics", nlohmann::ordered_json::array()},
+                                 {"diagnostics", json_of(sky.diagnostics)},
                                  {"sun_normal_lux", sky.sun.normal_illuminance.value()},
                                  {"sun_azimuth_deg", azimuth_of(sky.sun.direction).in_degrees()},
                                  {"sun_altitude_deg", altitude_of(sky.sun.direction).in_degrees()},
                                  {"standard_error", partition.standard_error},
                                  {"description", sky.description}};
-  for (const Finding& f : sky.diagnostics) summary["diagnostics"].push_back(json_of(f));
   return summary;
 }
 

@@ -64,26 +64,22 @@ Rgb PixelGather::sent_by_path(std::uint32_t side, Vec3 place, std::array<double,
 // What corners tell is right but for a smooth error: few paths find that. Their first ways are an
 // even sequence in the order of the rays, so that those of neighbouring rays complete each other.
 // Source  M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018: R2.
-Rgb PixelGather::sent_by_paths(const std::vector<const MetSide*>& met, const Point& point,
-                               const SentBySides& sent) const {
+Rgb PixelGather::beyond_corners(const std::vector<const MetSide*>& met, const Point& point,
+                                const SentBySides& sent) const {
   constexpr double kPlastic = 1.32471795724474602596;
   const Vec3 met_first = mesh_.place(point.position, *met.front());  // differs from look to look
   SampleRandom random(key_of(met_first, point.normal, options_.form_factors.seed), 1, 0);
   const double first = random.uniform(), second = random.uniform();
-  const std::size_t start = random.bits() % kEvery;
-  Rgb by_corners{}, beyond{};
-  for (std::size_t k = 0; k < met.size(); ++k) {
+  Rgb beyond{};
+  for (std::size_t k = random.bits() % kEvery; k < met.size(); k += kEvery) {
     const MetSide& one = *met[k];
     const Vec3 place = mesh_.place(point.position, one);
-    const Rgb smooth = sent_from(one.side, place, sent);
-    by_corners = by_corners + one.share * smooth;
-    if (k % kEvery != start) continue;
     const auto n = static_cast<double>(k / kEvery);
     const double u = first + n / kPlastic, v = second + n / (kPlastic * kPlastic);
     const Rgb by_path = sent_by_path(one.side, place, {u - std::floor(u), v - std::floor(v)}, sent);
-    beyond = beyond + one.share * (by_path + -1.0 * smooth);
+    beyond = beyond + one.share * (by_path + -1.0 * sent_from(one.side, place, sent));
   }
-  return by_corners + static_cast<double>(kEvery) * beyond;
+  return static_cast<double>(kEvery) * beyond;
 }
 
 PixelGather::Found PixelGather::look(const HemisphereLook& look, const Point& point,
@@ -106,7 +102,7 @@ PixelGather::Found PixelGather::look(const HemisphereLook& look, const Point& po
   }
   const double lux = point.direct_lux + luminance_of(found.lux + far + near);
   if (found.mesh_lux > point.tolerance * lux && luminance_of(near) > 0.0) {
-    near = sent_by_paths(nearby, point, sent);
+    near = near + beyond_corners(nearby, point, sent);
   }
   found.lux = found.lux + far + near;
   return found;

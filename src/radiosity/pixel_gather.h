@@ -70,8 +70,9 @@ class PixelGather {
   /// @param way  of the first ray, cosine-weighted on the unit square
   Rgb sent_by_path(std::uint32_t side, Vec3 place, std::array<double, 2> way,
                    const SentBySides& sent) const;
-  Rgb sent_by_paths(const std::vector<const MetSide*>& met, const Point& point,
-                    const SentBySides& sent) const;
+  /// What paths find of the light of sides over what their corners tell.
+  Rgb beyond_corners(const std::vector<const MetSide*>& met, const Point& point,
+                     const SentBySides& sent) const;
   Found look(const HemisphereLook& look, const Point& point, const SentBySides& sent) const;
 
   PointGatherOptions options_;

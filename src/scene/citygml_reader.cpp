@@ -2,8 +2,8 @@
 
 #include <cctype>
 #include <functional>
-#include <map>
 #include <optional>
+#include <set>
 #include <unordered_map>
 
 #include "core/error.h"
@@ -80,9 +80,9 @@ class CityGmlReader : public XmlVisitor {
   std::vector<Level> levels_;
   std::vector<std::string> ids_;  ///< [level]
   std::string crs_id_;            ///< of `raw_.crs`, once another name has been met
-  /// Whether names other than the first mean the same. Few: in what is no reference system PROJ
-  /// looks for a title, which takes a tenth of a second a name.
-  std::map<std::string, bool, std::less<>> is_same_crs_;
+  /// Names other than the first that were looked up. Few: in what is no reference system PROJ looks
+  /// for a title, which takes a tenth of a second a name.
+  std::set<std::string, std::less<>> other_crs_;
   std::string text_;
   std::vector<Vec3> ring_;
   std::uint32_t first_object_ = 0;  ///< of the member being read
@@ -149,10 +149,9 @@ void CityGmlReader::note_crs(std::string_view name) {
     raw_.has_registry_axes = names_registry_axes(name);
     return;
   }
-  if (is_same_crs_.contains(name) || is_same_crs_.size() == kMostCrsNames) return;
+  if (other_crs_.contains(name) || other_crs_.size() == kMostCrsNames) return;
   if (crs_id_.empty()) crs_id_ = crs_id(raw_.crs);
-  const std::string other(name);
-  if (is_same_crs_.emplace(other, crs_id(other) == crs_id_).first->second) return;
+  if (crs_id(*other_crs_.emplace(name).first) == crs_id_) return;
   raw_.findings.add(
       {"mixed_crs", Severity::Error, "", "",
        "coordinates are in " + tenku::quoted(raw_.crs) + " and in " + tenku::quoted(name),

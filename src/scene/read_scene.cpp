@@ -119,12 +119,15 @@ bool is_city_file(const fs::path& path) {
 
 bool is_terrain_file(const fs::path& path) { return known_format(path) == Format::Terrain; }
 
+void add_tiles(RawScene& city, std::span<const fs::path> tiles, const ReadOptions& options,
+               Progress& progress) {
+  for (const fs::path& tile : tiles) append_tile(city, read_file(tile, options, progress), tile);
+}
+
 RawScene read_tiles(std::span<const fs::path> tiles, const ReadOptions& options,
                     Progress& progress) {
   RawScene city = read_file(tiles[0], options, progress);
-  for (const fs::path& tile : tiles.subspan(1)) {
-    append_tile(city, read_file(tile, options, progress), tile);
-  }
+  add_tiles(city, tiles.subspan(1), options, progress);
   return city;
 }
 
@@ -146,9 +149,7 @@ RawScene read_around(const std::vector<fs::path>& tiles, const ReadOptions& opti
   RawScene city = read_tiles(whole, options, progress);
   ReadOptions at_lod_1 = options;
   at_lod_1.building_lod = kCoarseLod;
-  for (const fs::path& tile : coarse) {
-    append_tile(city, read_file(tile, at_lod_1, progress), tile);
-  }
+  add_tiles(city, coarse, at_lod_1, progress);
   tell_of_tiles(choice, *options.around, options, city.findings);
   return city;
 }

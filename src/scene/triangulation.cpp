@@ -138,10 +138,6 @@ std::vector<std::uint32_t> fill(ConstrainedDelaunay& mesh, const Surfaces& surfa
   return of_scene;
 }
 
-}  // namespace
-
-namespace {
-
 using Ring2 = std::vector<Point2>;
 
 /// On the given side of a ring and farther from it than rounding explains.

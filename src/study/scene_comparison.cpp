@@ -63,11 +63,11 @@ SensorIlluminance light_of(const ComparedScene& scene, const Sensors& sensors,
   return illuminate(sensors, scene.lit.engines(), scene.lit.source(), how, method, progress).values;
 }
 
-double quantile(std::vector<double>& sorted, double share) {
+double quantile(const std::vector<double>& sorted, double share) {
   return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1) + 0.5)];
 }
 
-ComparisonRow row_of(const SceneComparison& c, std::string which,
+ComparisonRow row_of(const SceneComparison& c, double most_sun, std::string which,
                      const std::vector<std::size_t>& squares) {
   ComparisonRow row;
   row.which = std::move(which);
@@ -75,10 +75,6 @@ ComparisonRow row_of(const SceneComparison& c, std::string which,
   if (squares.empty()) return row;
   const auto count = static_cast<double>(squares.size());
   std::vector<double> sizes;
-  double most_sun = 0.0;
-  for (std::size_t k = 0; k < c.first.size(); ++k) {
-    most_sun = std::max({most_sun, c.first.sun_lux[k], c.second.sun_lux[k]});
-  }
   for (const std::size_t k : squares) {
     row.mean_pct += c.difference_pct[k] / count;
     sizes.push_back(std::abs(c.difference_pct[k]));
@@ -108,7 +104,6 @@ SceneComparison compare_scenes(const ComparedScene& first, const ComparedScene& 
   made.covered = open - made.plan.cell.size();
   if (there.size() == 0) throw InputError("no open ground lies in both scenes");
   const double share_m = kShare * made.plan.grid.cell_m;
-  made.place = made.plan.sensors.position;
   made.first = light_of(first, made.plan.sensors, options, method, share_m, progress);
   made.second = light_of(second, there, options, method, share_m, progress);
   const double least = kDarkShare * first.lit.source().unobstructed_lux();
@@ -125,13 +120,16 @@ SceneComparison compare_scenes(const ComparedScene& first, const ComparedScene& 
 
 std::vector<ComparisonRow> comparison_table(const SceneComparison& c) {
   std::vector<std::size_t> all, deep, streets, open;
+  double most_sun = 0.0;
   for (std::size_t k = 0; k < c.difference_pct.size(); ++k) {
     all.push_back(k);
+    most_sun = std::max({most_sun, c.first.sun_lux[k], c.second.sun_lux[k]});
     const double view = c.first.sky_view[k];
     (view < kSkyBands[0] ? deep : view < kSkyBands[1] ? streets : open).push_back(k);
   }
-  return {row_of(c, "all", all), row_of(c, "sky view over 0.75", open),
-          row_of(c, "sky view 0.4 to 0.75", streets), row_of(c, "sky view under 0.4", deep)};
+  return {row_of(c, most_sun, "all", all), row_of(c, most_sun, "sky view over 0.75", open),
+          row_of(c, most_sun, "sky view 0.4 to 0.75", streets),
+          row_of(c, most_sun, "sky view under 0.4", deep)};
 }
 
 }  // namespace tenku

@@ -15,10 +15,9 @@ namespace tenku {
 /// Light on the ground of a scene, and of another model of the same place, in squares.
 ///
 /// Shape    all but `plan` [square], in the order of `plan.cell`, those that are open in both.
-/// Frame    `plan` and `place` in the local frame of the first scene.
+/// Frame    `plan` in the local frame of the first scene.
 struct SceneComparison {
   GroundPlan plan;  ///< its grid holds `difference_pct`, without sign
-  std::vector<Vec3> place;
   SensorIlluminance first, second;
   std::vector<double> difference_pct;  ///< second - first, of the first, at least 1 % of open light
   std::vector<double> error_pct;       ///< 95 % half-width of the difference, of the same

@@ -45,6 +45,13 @@ void write_tile(const std::filesystem::path& file, double x, double y, double ha
 const std::string kLight =
     " --sky uniform --sky-illuminance 10000 --bounces 0 --engine rays --lod off --quiet ";
 
+/// The table that `illuminance` writes.
+ReferenceTable table_of(const std::filesystem::path& folder, const std::string& what) {
+  const auto run = run_tenku("illuminance " + what + " --out a.csv", folder);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  return ReferenceTable((folder / "a.csv").string());
+}
+
 TEST(Around, LeavesOutWhatTakesLessThanATenthOfTheTolerance) {
   const auto folder = test_folder();
   std::filesystem::create_directory(folder / "city");
@@ -57,13 +64,10 @@ TEST(Around, LeavesOutWhatTakesLessThanATenthOfTheTolerance) {
   }
   write_text(folder / "wall.pts", "85000 446994.99 0.1 0 -1 0\n");
   const auto sky_lux = [&](const std::string& how) {
-    const auto run = run_tenku(
-        "illuminance city --sensors wall.pts --sky uniform "
-        "--sky-illuminance 10000 --bounces 0 --out a.csv " +
-            how,
-        folder);
-    EXPECT_EQ(run.exit_code, 0) << run.err;
-    return ReferenceTable((folder / "a.csv").string()).number(0, "sky_lux");
+    return table_of(
+               folder,
+               "city --sensors wall.pts --sky uniform --sky-illuminance 10000 --bounces 0 " + how)
+        .number(0, "sky_lux");
   };
   const std::string place = " --around 85000,447000,50";
   // The sum over the slabs' edges of the sky that they hide.
@@ -89,13 +93,10 @@ TEST(Around, CutsGridsAtTheSquare) {
           kLight,
       folder);
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  const auto table = run_tenku(
-      "illuminance wide.city.json --around 85090,447000,20 --grid roofs,walls "
-      "--spacing 3 --tolerance 5 --out a.csv" +
-          kLight,
-      folder);
-  ASSERT_EQ(table.exit_code, 0) << table.err;
-  const ReferenceTable sensors((folder / "a.csv").string());
+  const ReferenceTable sensors = table_of(
+      folder,
+      "wide.city.json --around 85090,447000,20 --grid roofs,walls --spacing 3 --tolerance 5" +
+          kLight);
   ASSERT_GT(sensors.size(), 100U);
   double east = 0.0;
   for (std::size_t k = 0; k < sensors.size(); ++k) {
@@ -113,10 +114,7 @@ TEST(Around, CutsGridsAtTheSquare) {
 /// Sky view and normals of a grid, and of sensors that are what the grid's table says.
 void expect_same_again(const std::filesystem::path& folder, const std::string& scene) {
   const std::string light = " --tolerance 0.5" + kLight;
-  const auto grid = run_tenku(
-      "illuminance " + scene + " --grid walls,roofs --spacing 3 --out a.csv" + light, folder);
-  ASSERT_EQ(grid.exit_code, 0) << grid.err;
-  const ReferenceTable first((folder / "a.csv").string());
+  const ReferenceTable first = table_of(folder, scene + " --grid walls,roofs --spacing 3" + light);
   std::string sensors;
   for (std::size_t k = 0; k < first.size(); ++k) {
     for (const char* column : {"x", "y", "z", "nx", "ny", "nz"}) {
@@ -125,10 +123,7 @@ void expect_same_again(const std::filesystem::path& folder, const std::string& s
     sensors += "\n";
   }
   write_text(folder / "a.pts", sensors);
-  const auto again =
-      run_tenku("illuminance " + scene + " --sensors a.pts --out b.csv" + light, folder);
-  ASSERT_EQ(again.exit_code, 0) << again.err;
-  const ReferenceTable second((folder / "b.csv").string());
+  const ReferenceTable second = table_of(folder, scene + " --sensors a.pts" + light);
   ASSERT_EQ(second.size(), first.size());
   for (std::size_t k = 0; k < first.size(); ++k) {
     EXPECT_NEAR(second.number(k, "sky_lux"), first.number(k, "sky_lux"),
