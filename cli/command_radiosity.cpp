@@ -83,6 +83,7 @@ nlohmann::ordered_json json_of_rounds(const MeshLoop& loop) {
   for (const MeshRound& round : loop.rounds()) {
     rounds.push_back({{"elements", round.elements},
                       {"polygons_meshed", round.polygons_meshed},
+                      {"points_kept", round.points_kept},
                       {"missed_pct", round.missed_pct}});
   }
   return rounds;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "meshing/bubble_edges.h"
 #include "scene/constrained_delaunay.h"
@@ -18,6 +19,11 @@ namespace {
 // at one of its ends.
 constexpr double kSameBubble = 0.5, kSamePiece = 0.35;
 constexpr double kBeside = 0.15;  // of a piece's length: nearer to it, a bubble parts it
+// Bubbles on a line that runs beside another are up to so much smaller, and as many gaps wide:
+// kept apart from those on the other.
+constexpr double kLeastBeside = 0.5, kPerGap = 1.6;
+constexpr double kSlanted = 0.5;  // sine: lines that part faster do not run beside one another
+constexpr double kSameLine = 1e-6;
 
 PlanePoint between(PlanePoint a, PlanePoint b, double t) {
   return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
@@ -27,8 +33,12 @@ std::array<double, 2> pair_of(PlanePoint p) { return {p.x, p.y}; }
 
 class ConstraintAdder {
  public:
-  ConstraintAdder(BubbleFace& face, std::size_t most) : face_(face), most_(most) {
-    for (const auto& piece : face.pieces) edges_.insert(std::minmax(piece.a, piece.b));
+  ConstraintAdder(BubbleFace& face, std::span<const ConstraintSegment> segments, std::size_t most)
+      : face_(face), lines_(segments.begin(), segments.end()), most_(most) {
+    for (const auto& piece : face.pieces) {
+      edges_.insert(std::minmax(piece.a, piece.b));
+      lines_.push_back({face.at[piece.a], face.at[piece.b]});
+    }
   }
 
   double add(const ConstraintSegment& s) {
@@ -38,7 +48,7 @@ class ConstraintAdder {
     std::vector<double> cuts = crossings(s);
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
       if (cuts[i + 1] > cuts[i] && is_inside(between(s.a, s.b, 0.5 * (cuts[i] + cuts[i + 1])))) {
-        lost_m += add_part(between(s.a, s.b, cuts[i]), between(s.a, s.b, cuts[i + 1]));
+        lost_m += add_part({between(s.a, s.b, cuts[i]), between(s.a, s.b, cuts[i + 1])});
       }
     }
     return lost_m;
@@ -70,17 +80,40 @@ class ConstraintAdder {
     return is_in;
   }
 
-  double add_part(PlanePoint from, PlanePoint to) {
-    const double long_m = distance(from, to);
+  /// To the nearest line that runs beside `s` and is not a part of the same, up to `most`.
+  double gap(const ConstraintSegment& s, PlanePoint p, double most) const {
+    const double long_m = distance(s.a, s.b);
+    double least = most;
+    for (const ConstraintSegment& line : lines_) {
+      const double d = distance_to_segment(p, line.a, line.b);
+      if (!(d < least)) continue;
+      const double a_off = doubled_area(s.a, s.b, line.a) / long_m,
+                   b_off = doubled_area(s.a, s.b, line.b) / long_m;
+      const bool is_beside = std::abs(a_off - b_off) < kSlanted * distance(line.a, line.b),
+                 is_same = std::abs(a_off) + std::abs(b_off) < kSameLine * long_m;
+      if (is_beside && !is_same) least = d;
+    }
+    return least;
+  }
+
+  double size_on(const ConstraintSegment& s, PlanePoint p) const {
+    const double size = face_.size_at(p);
+    if (!is_size(size)) return size;
+    return std::clamp(kPerGap * gap(s, p, size), kLeastBeside * size, size);
+  }
+
+  double add_part(const ConstraintSegment& part) {
+    const double long_m = distance(part.a, part.b);
+    const auto place = [&](double t) { return between(part.a, part.b, t); };
     ChainAnswer chain = bubble_chain(
-        long_m, [&](double t) { return face_.size_at(between(from, to, t / long_m)); }, most_);
+        long_m, [&](double at_m) { return size_on(part, place(at_m / long_m)); }, most_);
     if (chain.refusal || face_.at.size() + chain.at.size() > most_) return long_m;
     chain.at.insert(chain.at.begin(), 0.0);
     chain.at.push_back(1.0);
     std::uint32_t last = kNone;
     double lost_m = 0.0;
     for (const double t : chain.at) {
-      const std::uint32_t next = bubble_at(between(from, to, t));
+      const std::uint32_t next = bubble_at(place(t), size_on(part, place(t)));
       if (next != kNone && last != kNone && next != last) lost_m += add_piece(last, next);
       if (next != kNone) last = next;
     }
@@ -88,8 +121,7 @@ class ConstraintAdder {
   }
 
   /// The bubble that is there, or at the end of a piece that is there, or a new one.
-  std::uint32_t bubble_at(PlanePoint p) {
-    const double size = face_.size_at(p);
+  std::uint32_t bubble_at(PlanePoint p, double size) {
     if (!is_size(size)) return kNone;
     std::uint32_t nearest = kNone;
     double least = kSameBubble * size;
@@ -141,6 +173,7 @@ class ConstraintAdder {
   }
 
   BubbleFace& face_;
+  std::vector<ConstraintSegment> lines_;  ///< and the outline
   std::size_t most_;
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges_;
 };
@@ -149,7 +182,7 @@ class ConstraintAdder {
 
 double add_constraints(BubbleFace& face, std::span<const ConstraintSegment> segments,
                        std::size_t most) {
-  ConstraintAdder adder(face, most);
+  ConstraintAdder adder(face, segments, most);
   double lost_m = 0.0;
   for (const ConstraintSegment& s : segments) lost_m += adder.add(s);
   face.fixed = face.at.size();

@@ -165,6 +165,7 @@ class CornerSolver {
     const auto& [mesh, surfaces, points, lamps, lamp_scale, daylight, enough] = problem_;
     light_.spread.assign(mesh.sides(), 0.0);
     light_.uneven.assign(mesh.sides(), 0.0);
+    light_.middle_off.assign(mesh.sides(), 0.0);
     for (std::size_t s = 0; s < mesh.sides(); ++s) {
       if (is_lit_[points.corner[s][0]] == 0) continue;
       std::array<double, 3> lux{};
@@ -176,8 +177,8 @@ class CornerSolver {
       const double middle = daylight.middle_lux[s] + lum(middle_of_lamps(s)),
                    rho = lum(surfaces.reflectance[s / 2]);
       light_.spread[s] = rho * (light_.open[s] == kAllOpen ? *high - *low : *high);
-      light_.uneven[s] = kCurved * light_.spread[s];
-      if (lamps.has_middle[s] != 0) light_.uneven[s] += rho * std::abs(lum(at_corners) - middle);
+      if (lamps.has_middle[s] != 0) light_.middle_off[s] = std::abs(lum(at_corners) - middle);
+      light_.uneven[s] = kCurved * light_.spread[s] + rho * light_.middle_off[s];
     }
     light_.variance = pooled_variance(looks_, points.plane);
     for (std::size_t i = 0; i < points.size(); ++i) {

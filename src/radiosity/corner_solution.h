@@ -50,6 +50,8 @@ struct CornerLight {
   std::vector<Rgb> radiosity;    ///< [element side], lm/m2
   std::vector<std::uint8_t> open;  ///< [element side], bits of the corners that count
   std::vector<double> spread;      ///< [element side], lm/m2: radiosity between corners, at most
+  std::vector<double> middle_off;  ///< [element side], lux: how far the light straight from sun,
+                                   ///< sky and lamps in its middle is off the mean of its corners
   std::vector<double> uneven;      ///< [element side], lm/m2: doubt of the mean radiosity
   double convergence_lux = 0.0;    ///< bound on the light still under way, anywhere
   std::size_t sweeps = 0;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/finding.h"
@@ -87,6 +88,16 @@ class Interior {
 
   /// @throws Cancelled
   InteriorLight light(const LightRequest& request, Progress& progress);
+
+  /// Form factors that another mesh of the same surfaces can take over; they are gone from here.
+  /// @param now  [element side], numbers there, as `PointGather::release`
+  std::vector<PointGather::Kept> release_rows(std::span<const std::uint32_t> now) {
+    return gather_.release(now);
+  }
+  /// @return  number of points whose form factors need not be found
+  std::size_t adopt_rows(std::vector<PointGather::Kept> rows) {
+    return gather_.adopt(std::move(rows));
+  }
 
   /// Sensors that look into the mesh once for many lights.
   /// @param sensors  kept by reference

@@ -20,10 +20,12 @@ double daylight_variance(const InteriorLight& light, std::size_t i) {
 
 LightOnMesh light_on_mesh(const ElementMesh& mesh, const Interior& interior,
                           const InteriorLight& light) {
-  LightOnMesh found{mesh, interior.points(), {}, light.corners.variance, light.is_lit};
+  LightOnMesh found{mesh,         interior.points(),        {}, light.corners.variance,
+                    light.is_lit, light.corners.middle_off, {}};
   for (std::size_t i = 0; i < found.points.size(); ++i) {
     found.lux.push_back(light.points.total_lux(i));
-    found.variance[i] += daylight_variance(light, i);
+    found.direct_variance.push_back(daylight_variance(light, i));
+    found.variance[i] += found.direct_variance[i];
   }
   return found;
 }

@@ -15,12 +15,14 @@ namespace tenku {
 /// Illuminance at the corners of elements, where any light reaches the plane.
 ///
 /// Units    lux.
-/// Shape    all [point].
+/// Shape    [point] but for `middle_off`.
 struct LightOnMesh {
   const ElementMesh& mesh;
   const SidePoints& points;
   std::vector<double> lux, variance;
   std::vector<std::uint8_t> is_lit;
+  std::vector<double> middle_off;       ///< [element side], as in `CornerLight`
+  std::vector<double> direct_variance;  ///< lux^2, of the light that `middle_off` compares
 };
 
 /// @param mesh, interior  kept by reference

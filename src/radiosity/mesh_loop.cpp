@@ -10,6 +10,7 @@
 #include "core/extent.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
+#include "meshing/edges_on_lines.h"
 #include "meshing/parted_mesh.h"
 
 namespace tenku {
@@ -17,12 +18,12 @@ namespace {
 
 constexpr std::size_t kMostElements = 1'000'000;
 constexpr double kOtherSize = 1.4;   // times larger or smaller: another size
-constexpr double kOtherShare = 0.1;  // of a polygon's area
+constexpr double kOtherShare = 0.1;  // of the elements asked for on a polygon
 constexpr double kLeastGain = 0.9;   // of the error before: a round that gains less is the last
 constexpr double kLargest = 0.25;    // of the scene's longest side: largest element unasked
 constexpr double kSmallest = 1.0 / 4096.0;
-constexpr int kAttempts = 3;         // at a number of elements
-constexpr double kNearlyAll = 0.96;  // of the elements allowed
+constexpr int kAttempts = 8;                            // at a number of elements
+constexpr double kNearlyAll = 0.96, kManyOfAll = 0.93;  // of the elements allowed
 
 /// What bubbles could not do, by kind.
 std::vector<Finding> findings_of(const std::vector<BubbleFlaw>& flaws) {
@@ -103,14 +104,17 @@ void MeshLoop::solve(const LightRequest& request, Progress& progress) {
   if (interior_) before_ = times();
   interior_.reset();  // its form factors make room
   interior_ = std::make_unique<Interior>(*mesh_, materials_, how_);
+  const std::size_t points_kept = interior_->adopt_rows(std::exchange(kept_rows_, {}));
   light_ = interior_->light(request, progress);
   on_mesh_.emplace(light_on_mesh(*mesh_, *interior_, light_));
   const Stopwatch watch;
-  missed_lux_ = interpolation_error(*on_mesh_);
+  is_bent_ = edges_on_lines(*mesh_, polygons_, polygon_of_, constraints_);
+  missed_lux_ = interpolation_error(*on_mesh_, is_bent_);
   if (options_.mesher == Mesher::Bubble && !has_sizes_by_hand()) size_field_s_ += watch.seconds();
   const double mean = mean_lux(*on_mesh_);
   if (rounds_.empty() || rounds_.back().elements > 0) rounds_.emplace_back();
   rounds_.back().elements = mesh_->size();
+  rounds_.back().points_kept = points_kept;
   rounds_.back().missed_pct =
       mean > 0.0 ? 100.0 * interpolation_rms(*on_mesh_, missed_lux_) / mean : 0.0;
 }
@@ -126,7 +130,23 @@ bool MeshLoop::remesh() {
   return options_.mesher == Mesher::Refine ? remesh_by_threshold() : remesh_by_bubbles();
 }
 
+std::vector<std::uint32_t> MeshLoop::sides_in(std::span<const MeshPiece> pieces) const {
+  const auto present = pieces_of(*mesh_, polygon_of_, polygons_.size());
+  std::vector<std::uint32_t> now(mesh_->sides(), PointGather::kGone);
+  std::uint32_t here = 0, there = 0;
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    const PolygonMesh &before = present[p].mesh, &after = pieces[p].mesh;
+    const auto sides = static_cast<std::uint32_t>(2 * before.elements.size());
+    const bool is_same = before.elements == after.elements && before.vertices == after.vertices;
+    for (std::uint32_t s = 0; s < sides && is_same; ++s) now[here + s] = there + s;
+    here += sides;
+    there += static_cast<std::uint32_t>(2 * after.elements.size());
+  }
+  return now;
+}
+
 void MeshLoop::take(std::vector<MeshPiece> pieces) {
+  kept_rows_ = interior_->release_rows(sides_in(pieces));
   AssembledMesh all = assembled(polygons_, pieces);
   all.mesh.panes = mesh_->panes;
   interior_.reset();
@@ -157,8 +177,8 @@ bool MeshLoop::remesh_by_threshold() {
   return after != before;
 }
 
-void MeshLoop::make_fields(std::span<const double> size_m, SizeRange range) {
-  std::vector<std::vector<SizeSample>> samples(polygons_.size());
+std::vector<MeshLoop::Samples> MeshLoop::samples_at_vertices(std::span<const double> size_m) const {
+  std::vector<Samples> samples(polygons_.size());
   std::vector<std::uint8_t> is_taken(mesh_->vertices.size());
   for (std::size_t e = 0; e < mesh_->size(); ++e) {
     for (const std::uint32_t v : mesh_->elements[e]) {
@@ -167,6 +187,19 @@ void MeshLoop::make_fields(std::span<const double> size_m, SizeRange range) {
       samples[p].push_back({polygons_[p].flat(mesh_->vertices[v]), size_m[v]});
     }
   }
+  return samples;
+}
+
+std::vector<MeshLoop::Samples> MeshLoop::samples_in_elements(std::span<const double> size_m) const {
+  std::vector<Samples> samples(polygons_.size());
+  for (std::size_t e = 0; e < mesh_->size(); ++e) {
+    const std::uint32_t p = polygon_of_[e];
+    samples[p].push_back({polygons_[p].flat(mesh_->centre(e)), size_m[e]});
+  }
+  return samples;
+}
+
+void MeshLoop::make_fields(const std::vector<Samples>& samples, SizeRange range) {
   std::vector<std::unique_ptr<SizeField>> made(polygons_.size());
   parallel_for(made.size(), 1, [&](IndexRange part) {
     for (std::size_t p = part.begin; p < part.end; ++p) {
@@ -184,10 +217,11 @@ std::vector<std::uint8_t> MeshLoop::polygons_to_mesh() const {
   std::vector<double> other(polygons_.size()), all(polygons_.size());
   for (std::size_t e = 0; e < mesh_->size(); ++e) {
     const std::uint32_t p = polygon_of_[e];
-    const double area = mesh_->area_m2(e),
-                 ratio = mesh_->mean_edge_m(e) / field_[p].at(polygons_[p].flat(mesh_->centre(e)));
-    all[p] += area;
-    if (ratio > kOtherSize || ratio < 1.0 / kOtherSize) other[p] += area;
+    const double asked = field_[p].at(polygons_[p].flat(mesh_->centre(e))),
+                 ratio = mesh_->mean_edge_m(e) / asked,
+                 elements = mesh_->area_m2(e) / (asked * asked);
+    all[p] += elements;
+    if (ratio > kOtherSize || ratio < 1.0 / kOtherSize) other[p] += elements;
   }
   std::vector<std::uint8_t> is_wanted(polygons_.size());
   for (std::size_t p = 0; p < all.size(); ++p) is_wanted[p] = other[p] > kOtherShare * all[p];
@@ -218,40 +252,47 @@ double MeshLoop::foreseen_elements() const {
   return sum;
 }
 
-BubbleMesh MeshLoop::bubbles_up_to(std::span<const std::uint8_t> is_wanted) const {
+BubbleMesh MeshLoop::bubbles_up_to(std::span<const std::uint8_t> is_wanted) {
   const auto most =
       static_cast<double>(options_.elements_max > 0 ? options_.elements_max : kMostElements);
-  const double wished = 0.5 * (1.0 + kNearlyAll) * most;
+  const double wished = 0.5 * (1.0 + kNearlyAll) * most, foreseen = foreseen_elements();
+  const double first = std::max(1.0, coarser_ * std::sqrt(foreseen / wished));
   BubbleMesh best;
-  double scale = 1.0, most_yet = -1.0;
-  const double foreseen = foreseen_elements();
-  if (foreseen > wished) scale = std::sqrt(foreseen / wished);
-  for (int attempt = 0; attempt < (most_yet > most ? 3 : 1) * kAttempts; ++attempt) {
+  double scale = first, most_yet = -1.0, before = 0.0, before_scale = scale;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
     BubbleMesh made = bubbles(is_wanted, scale);
     double count = 0.0;
     for (const PolygonMesh& mesh : made.meshes) count += static_cast<double>(mesh.elements.size());
-    const bool is_better = most_yet < 0.0 || most_yet > most ? count < most_yet || most_yet < 0.0
-                                                             : count > most_yet && count <= most;
-    if (is_better) best = std::move(made), most_yet = count;
-    if (count <= most) break;
-    scale *= std::sqrt(count / wished);
+    const bool is_better = most_yet > most ? count < most_yet : count <= most && count > most_yet;
+    if (attempt == 0 || is_better) best = std::move(made), most_yet = count;
+    const bool are_too_few = count < kManyOfAll * most && scale > 1.0;
+    if (count <= most && (!are_too_few || attempt >= kAttempts / 2)) break;
+    // Elements along lines do not grow with the others: how the number falls is learnt.
+    if ((before - count) * (scale - before_scale) > 0.0) {
+      power_ = std::clamp(std::log(before / count) / std::log(scale / before_scale), 0.5, 2.0);
+    }
+    before = count;
+    before_scale =
+        std::exchange(scale, std::max(1.0, scale * std::pow(count / wished, 1.0 / power_)));
   }
+  if (foreseen > wished) coarser_ *= scale / first;
   return best;
 }
 
 bool MeshLoop::remesh_by_bubbles() {
   const Stopwatch watch;
   SizeRange range = options_.sizes;
-  std::vector<double> size_m;
+  std::vector<Samples> samples;
   if (has_sizes_by_hand()) {
-    size_m = sizes_by_change(*on_mesh_, range);
+    samples = samples_at_vertices(sizes_by_change(*on_mesh_, range));
   } else {
     if (!(range.most_m > 0.0)) range.most_m = std::max(range.least_m, kLargest * longest_m_);
     if (!(range.least_m > 0.0)) range.least_m = std::min(range.most_m, kSmallest * longest_m_);
     const double allowed = options_.tolerance_pct / 100.0 * mean_lux(*on_mesh_);
-    size_m = sizes_by_error(*on_mesh_, missed_lux_, {allowed, options_.elements_max, range});
+    samples = samples_in_elements(
+        sizes_by_error(*on_mesh_, missed_lux_, {allowed, options_.elements_max, range}, is_bent_));
   }
-  make_fields(size_m, range);
+  make_fields(samples, range);
   const std::vector<std::uint8_t> is_wanted = polygons_to_mesh();
   const auto wanted = std::count(is_wanted.begin(), is_wanted.end(), 1);
   size_field_s_ += watch.seconds();

@@ -51,14 +51,15 @@ struct MeshLoopOptions {
 struct MeshRound {
   std::size_t elements = 0;
   std::size_t polygons_meshed = 0;  ///< anew
+  std::size_t points_kept = 0;      ///< whose form factors are those of the mesh before
   double missed_pct = 0.0;          ///< root mean square, as in the options, as estimated
 };
 
 /// The calculation with the mesh that it has come to.
 ///
-/// A polygon is meshed anew where a tenth of its area has elements of another size than the light
-/// asks for. With sizes by hand there is one round, as in the source; otherwise rounds go on until
-/// the tolerance holds or nothing is to be gained.
+/// A polygon is meshed anew where a tenth of the elements that the light asks for have another size
+/// than those that are there. With sizes by hand there is one round, as in the source; otherwise
+/// rounds go on until the tolerance holds or nothing is to be gained.
 ///
 /// Source   for bubbles: T. Itoh et al. (sizes_by_change.h); for `Refine`: threshold_refinement.h
 class MeshLoop {
@@ -95,13 +96,18 @@ class MeshLoop {
   bool remesh();
   bool remesh_by_threshold();
   bool remesh_by_bubbles();
-  void make_fields(std::span<const double> size_m, SizeRange range);
+  using Samples = std::vector<SizeSample>;  ///< of one polygon
+  std::vector<Samples> samples_at_vertices(std::span<const double> size_m) const;
+  std::vector<Samples> samples_in_elements(std::span<const double> size_m) const;
+  void make_fields(const std::vector<Samples>& samples, SizeRange range);
   std::vector<std::uint8_t> polygons_to_mesh() const;
   BubbleMesh bubbles(std::span<const std::uint8_t> is_wanted, double scale) const;
   double foreseen_elements() const;
   /// Not more elements than are allowed; where that is too few for the sizes, nearly as many.
-  BubbleMesh bubbles_up_to(std::span<const std::uint8_t> is_wanted) const;
+  BubbleMesh bubbles_up_to(std::span<const std::uint8_t> is_wanted);
   void take(std::vector<MeshPiece> pieces);
+  /// The number in another mesh of each side of those polygons that have the same elements there.
+  std::vector<std::uint32_t> sides_in(std::span<const MeshPiece> pieces) const;
   bool has_sizes_by_hand() const {
     return options_.sizes.least_m > 0.0 && options_.sizes.most_m > 0.0;
   }
@@ -116,12 +122,16 @@ class MeshLoop {
   std::unique_ptr<Interior> interior_;
   InteriorLight light_;
   std::optional<LightOnMesh> on_mesh_;  ///< of `light_`
+  std::vector<std::uint8_t> is_bent_;   ///< [element], edges that follow lines
   std::vector<InterpolationError> missed_lux_;
+  std::vector<PointGather::Kept> kept_rows_;  ///< of the mesh before
   std::unique_ptr<ThresholdRefinement> refinement_;
   std::vector<std::vector<ConstraintSegment>> constraints_;  ///< [polygon], or none
   std::vector<SizeField> field_;                             ///< [polygon]
   std::vector<MeshRound> rounds_;
   std::vector<Finding> findings_;
+  double coarser_ = 1.0;  ///< than foreseen: sizes that gave the number of elements allowed
+  double power_ = 2.0;    ///< of sizes, as which the number of elements falls
   InteriorTimes before_;  ///< of the rounds before this one
   double size_field_s_ = 0.0, remesh_s_ = 0.0;
 };

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 #include <utility>
 
 #include "core/parallel.h"
+#include "form_factors/point_view.h"
 #include "radiosity/settled_looks.h"
 
 namespace tenku {
@@ -57,6 +59,10 @@ PointGather::PointGather(const ElementMesh& mesh, const Sensors& points,
   method_[0] = methods(mesh, options, 0);
 }
 
+void PointGather::ready(std::size_t level) {
+  if (!method_[level][0]) method_[level] = methods(mesh_, options_, level);
+}
+
 bool PointGather::look_finer(std::span<std::uint8_t> steps) {
   const std::size_t finest = levels(options_) - 1;
   bool any = false;
@@ -64,8 +70,7 @@ bool PointGather::look_finer(std::span<std::uint8_t> steps) {
     if (level_[i] >= finest) steps[i] = 0;
     if (steps[i] == 0) continue;
     level_[i] = static_cast<std::uint8_t>(std::min<std::size_t>(level_[i] + steps[i], finest));
-    Methods& finer = method_[level_[i]];
-    if (!finer[0]) finer = methods(mesh_, options_, level_[i]);
+    ready(level_[i]);
     for (std::size_t look = 0; look < kLooks; ++look) store_.forget(kLooks * i + look);
     any = true;
   }
@@ -77,6 +82,49 @@ FormFactorRow PointGather::find(std::size_t point, std::size_t look) const {
   if (outward_.faces_nothing(points_.position[point], normal)) return {};
   return method_[level_[point]][look]->from_point(points_.position[point] + lift_m_ * normal,
                                                   normal);
+}
+
+std::vector<PointGather::Kept> PointGather::release(std::span<const std::uint32_t> now) {
+  std::vector<Kept> kept;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    Kept one{points_.position[i], points_.normal[i], level_[i], {}};
+    bool is_whole = true;
+    for (std::size_t look = 0; look < kLooks && is_whole; ++look) {
+      const FormFactorRow* row = store_.find(kLooks * i + look);
+      is_whole = row != nullptr && std::all_of(row->begin(), row->end(), [&](const FormFactor& f) {
+                   return now[f.side] != kGone;
+                 });
+      if (!is_whole) break;
+      one.row[look] = *row;
+      for (FormFactor& f : one.row[look]) f.side = now[f.side];
+    }
+    if (is_whole) kept.push_back(std::move(one));
+    for (std::size_t look = 0; look < kLooks; ++look) store_.forget(kLooks * i + look);
+  }
+  return kept;
+}
+
+std::size_t PointGather::adopt(std::vector<Kept> rows) {
+  std::unordered_map<std::uint64_t, std::size_t> known;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    known.emplace(key_of(rows[k].position, rows[k].normal, 0), k);
+  }
+  std::size_t adopted = 0;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const auto found = known.find(key_of(points_.position[i], points_.normal[i], 0));
+    if (found == known.end()) continue;
+    Kept& one = rows[found->second];
+    if (!(one.position == points_.position[i]) || !(one.normal == points_.normal[i])) continue;
+    if (!store_.fits(one.row[0]) || !store_.fits(one.row[1])) break;
+    level_[i] = one.level;
+    ready(one.level);
+    for (std::size_t look = 0; look < kLooks; ++look) {
+      if (store_.fits(one.row[look])) store_.keep(kLooks * i + look, std::move(one.row[look]));
+    }
+    known.erase(found);
+    ++adopted;
+  }
+  return adopted;
 }
 
 void PointGather::prepare(std::span<const std::uint8_t> is_wanted, Progress& progress) {

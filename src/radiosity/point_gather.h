@@ -54,6 +54,20 @@ class PointGather {
   /// @return  whether any do
   bool look_finer(std::span<std::uint8_t> steps);
 
+  /// Rows of points that another mesh of the same surfaces can take over.
+  struct Kept {
+    Vec3 position, normal;
+    std::uint8_t level = 0;
+    std::array<FormFactorRow, kLooks> row;
+  };
+  /// Gives away those that see nothing but sides which that mesh has as well.
+  /// @param now  [element side], their numbers there; `kGone` where they are not
+  static constexpr std::uint32_t kGone = ~0U;
+  std::vector<Kept> release(std::span<const std::uint32_t> now);
+  /// Takes rows over at the points that are where those were, bit for bit.
+  /// @return  number of points
+  std::size_t adopt(std::vector<Kept> rows);
+
   /// Sum of form factor times value over the sides, by both looks [point]; zero for points that
   /// are not wanted.
   /// @param of_side  [element side]
@@ -71,6 +85,7 @@ class PointGather {
 
  private:
   FormFactorRow find(std::size_t point, std::size_t look) const;
+  void ready(std::size_t level);
 
   const Sensors& points_;
   double lift_m_;

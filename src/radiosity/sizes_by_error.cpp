@@ -5,124 +5,109 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <tuple>
 
 #include "core/parallel.h"
 
 namespace tenku {
 namespace {
 
-constexpr double kShape = 0.1;        // see the header
-constexpr double kLeastOrder = 1.0;   // see the header
-constexpr double kOff = 0.5;          // see the header
+constexpr double kBend = 0.12, kMiddle = 0.7, kOrder = 2.0;  // see the header
 constexpr double kFineShare = 0.25;   // of the present size: no less in one step
 constexpr double kCoarseShare = 8.0;  // nor more
-constexpr double kNoise = 1.5;        // standard deviations of the residual that are noise
-constexpr std::size_t kTerms = 6, kGrain = 64;
+constexpr double kAlongLine = 1.2;    // of the height of an element over an edge on a line
+constexpr double kNoise = 1.5;        // standard deviations that are noise
+constexpr double kBendNoise = 5.3;    // variance of a bend by that of corners: (4 / sqrt(3))^2
+constexpr double kMiddleNoise = 4.0 / 3.0;
+constexpr std::size_t kGrain = 256;
 
-using Terms = std::array<double, kTerms>;
-
-/// Least squares with a parabola; a ridge keeps what the points do not tell at zero.
-class ParabolaFit {
+/// How the light that is drawn bends at the edges of sides.
+class Bends {
  public:
-  void add(const Terms& t, double value) {
-    for (std::size_t i = 0; i < kTerms; ++i) {
-      for (std::size_t j = 0; j <= i; ++j) matrix_[i][j] += t[i] * t[j];
-      right_[i] += t[i] * value;
-    }
-  }
-  Terms solve() {
-    constexpr double kRidge = 1e-6;
-    for (std::size_t i = 0; i < kTerms; ++i) matrix_[i][i] += kRidge * (1.0 + matrix_[0][0]);
-    for (std::size_t i = 0; i < kTerms; ++i) {  // Cholesky's factors
-      for (std::size_t j = 0; j <= i; ++j) {
-        double sum = matrix_[i][j];
-        for (std::size_t k = 0; k < j; ++k) sum -= matrix_[i][k] * matrix_[j][k];
-        matrix_[i][j] = i == j ? std::sqrt(sum) : sum / matrix_[j][j];
+  Bends(const LightOnMesh& light, std::span<const std::uint8_t> is_bent)
+      : light_(light), is_bent_(is_bent), beyond_(light.mesh.sides(), {kNone, kNone, kNone}) {
+    struct Edge {
+      std::uint32_t low, high, side;
+      unsigned edge;
+    };
+    std::vector<Edge> edges;
+    for (std::uint32_t s = 0; s < beyond_.size(); ++s) {
+      const auto& corner = light.points.corner[s];
+      if (light.is_lit[corner[0]] == 0) continue;
+      for (unsigned k = 0; k < 3; ++k) {
+        const auto [low, high] = std::minmax(corner[k], corner[(k + 1) % 3]);
+        edges.push_back({low, high, s, k});
       }
     }
-    Terms x = right_;
-    for (std::size_t i = 0; i < kTerms; ++i) {
-      for (std::size_t k = 0; k < i; ++k) x[i] -= matrix_[i][k] * x[k];
-      x[i] /= matrix_[i][i];
+    std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+      return std::tie(a.low, a.high, a.side) < std::tie(b.low, b.high, b.side);
+    });
+    for (std::size_t i = 1; i < edges.size(); ++i) {
+      const Edge &a = edges[i - 1], &b = edges[i];
+      if (a.low != b.low || a.high != b.high) continue;
+      beyond_[a.side][a.edge] = b.side;
+      beyond_[b.side][b.edge] = a.side;
     }
-    for (std::size_t i = kTerms; i-- > 0;) {
-      for (std::size_t k = i + 1; k < kTerms; ++k) x[i] -= matrix_[k][i] * x[k];
-      x[i] /= matrix_[i][i];
+  }
+
+  /// Root mean square over the edges of a side, lux per metre.
+  double at(std::size_t side) const {
+    const Vec3 here = slope(side);
+    double square = 0.0;
+    for (unsigned k = 0; k < 3; ++k) {
+      const std::uint32_t next = beyond_[side][k];
+      if (next == kNone || is_known(side, k)) continue;
+      const Vec3 bend = slope(next) - here;
+      square += dot(bend, bend);
     }
-    return x;
+    return std::sqrt(square / 3.0);
   }
 
  private:
-  std::array<Terms, kTerms> matrix_{};
-  Terms right_{};
-};
+  static constexpr std::uint32_t kNone = ~0U;
 
-class PointFit {
- public:
-  PointFit(const LightOnMesh& light, const PointNeighbours& neighbours)
-      : light_(light), neighbours_(neighbours) {}
-
-  InterpolationError at(std::uint32_t i) {
-    gather(i);
-    InterpolationError found;
-    const auto ring = neighbours_.of(i);
-    for (const std::uint32_t k : ring) found.size_m += length(position(k) - position(i));
-    if (ring.empty()) return found;
-    found.size_m /= static_cast<double>(ring.size());
-    const Vec3 normal = light_.points.sensors.normal[i];
-    const Vec3 along = normalized(position(ring[0]) - position(i)), across = cross(normal, along);
-    const auto terms = [&](std::uint32_t k) {
-      const Vec3 way = (1.0 / found.size_m) * (position(k) - position(i));
-      const double x = dot(way, along), y = dot(way, across);
-      return Terms{1.0, x, y, x * x, x * y, y * y};
-    };
-    ParabolaFit fit;
-    for (const std::uint32_t k : about_) fit.add(terms(k), light_.lux[k] - light_.lux[i]);
-    const Terms c = fit.solve();
-    const double xx = 2.0 * c[3], xy = c[4], yy = 2.0 * c[5];  // by size_m squared
-    const double bent = kShape * std::sqrt((xx * xx + 2.0 * xy * xy + yy * yy) / 2.0);
-    double square = 0.0, noise = 0.0;
-    for (const std::uint32_t k : about_) {
-      const Terms t = terms(k);
-      double value = 0.0;
-      for (std::size_t n = 0; n < kTerms; ++n) value += c[n] * t[n];
-      square += std::pow(light_.lux[k] - light_.lux[i] - value, 2);
-      noise += light_.variance[k];
-    }
-    const auto count = static_cast<double>(about_.size());
-    const double off = kOff * kOff * std::max(0.0, square - kNoise * kNoise * noise) / count;
-    found.lux = std::sqrt(bent * bent + off);
-    found.order = found.lux > 0.0 ? 2.0 * bent * bent / (bent * bent + off) : 2.0;
-    return found;
+  bool is_known(std::size_t side, unsigned edge) const {
+    return !is_bent_.empty() && (is_bent_[side / 2] >> edge & 1U) != 0;
   }
 
- private:
-  Vec3 position(std::uint32_t i) const { return light_.points.sensors.position[i]; }
-
-  /// Points up to two edges away.
-  void gather(std::uint32_t i) {
-    about_.assign(1, i);
-    for (const std::uint32_t k : neighbours_.of(i)) {
-      about_.push_back(k);
-      const auto second = neighbours_.of(k);
-      about_.insert(about_.end(), second.begin(), second.end());
-    }
-    std::sort(about_.begin(), about_.end());
-    about_.erase(std::unique(about_.begin(), about_.end()), about_.end());
+  /// Of the light that is drawn, lux per metre.
+  Vec3 slope(std::size_t side) const {
+    const auto& [a, b, c] = light_.mesh.elements[side / 2];
+    const auto& corner = light_.points.corner[side];
+    const Vec3 u = light_.mesh.vertices[b] - light_.mesh.vertices[a],
+               v = light_.mesh.vertices[c] - light_.mesh.vertices[a], n = cross(u, v);
+    const double along_u = light_.lux[corner[1]] - light_.lux[corner[0]],
+                 along_v = light_.lux[corner[2]] - light_.lux[corner[0]];
+    return (1.0 / dot(n, n)) * (along_u * cross(v, n) + along_v * cross(n, u));
   }
 
   const LightOnMesh& light_;
-  const PointNeighbours& neighbours_;
-  std::vector<std::uint32_t> about_;
+  std::span<const std::uint8_t> is_bent_;
+  std::vector<std::array<std::uint32_t, 3>> beyond_;  ///< [side][edge], the side on the other hand
 };
 
-/// Calls `use(side, corner, third of the area)` for the corners of lit sides.
+InterpolationError error_of(const LightOnMesh& light, const Bends& bends, std::size_t side) {
+  InterpolationError found;
+  found.size_m = light.mesh.mean_edge_m(side / 2);
+  double variance = 0.0, direct = 0.0;
+  for (const std::uint32_t i : light.points.corner[side]) {
+    variance += light.variance[i] / 3.0;
+    direct += light.direct_variance[i] / 3.0;
+  }
+  const auto beyond_noise = [](double off, double noise) {
+    return std::max(0.0, off * off - kNoise * kNoise * noise);
+  };
+  const double bend = beyond_noise(found.size_m * bends.at(side), kBendNoise * variance),
+               middle = beyond_noise(light.middle_off[side], kMiddleNoise * direct);
+  found.lux = std::sqrt(kBend * kBend * bend + kMiddle * kMiddle * middle);
+  return found;
+}
+
+/// Calls `use(side, its area)` for lit sides.
 template <class Use>
-void for_corners(const LightOnMesh& light, const Use& use) {
+void for_lit(const LightOnMesh& light, const Use& use) {
   for (std::size_t s = 0; s < light.mesh.sides(); ++s) {
-    if (light.is_lit[light.points.corner[s][0]] == 0) continue;
-    const double third = light.mesh.area_m2(s / 2) / 3.0;
-    for (const std::uint32_t i : light.points.corner[s]) use(i, third);
+    if (light.is_lit[light.points.corner[s][0]] != 0) use(s, light.mesh.area_m2(s / 2));
   }
 }
 
@@ -131,43 +116,63 @@ double size_for(const InterpolationError& error, double share, const SizeRange& 
   double size = range.most_m;
   if (error.lux > 0.0) {
     const double now = std::pow(error.lux * error.size_m, 2);
-    size = error.size_m *
-           std::pow(share / now, 1.0 / (2.0 + 2.0 * std::max(kLeastOrder, error.order)));
+    size = error.size_m * std::pow(share / now, 1.0 / (2.0 + 2.0 * kOrder));
   }
+  return std::clamp(size, range.least_m, std::max(range.least_m, range.most_m));
+}
+
+/// As far towards it as one step goes.
+double next_size(const InterpolationError& error, double size, const SizeRange& range) {
   size = std::clamp(size, kFineShare * error.size_m, kCoarseShare * error.size_m);
   return std::clamp(size, range.least_m, std::max(range.least_m, range.most_m));
 }
 
+/// Along a line elements that are much larger than the space to the next line would lose it.
+std::vector<double> most_sizes(const ElementMesh& mesh, std::span<const std::uint8_t> is_bent,
+                               double most_m) {
+  std::vector<double> size(mesh.size(), most_m);
+  for (std::size_t e = 0; e < is_bent.size(); ++e) {
+    for (unsigned k = 0; k < 3; ++k) {
+      if ((is_bent[e] >> k & 1U) == 0) continue;
+      const Vec3 edge =
+          mesh.vertices[mesh.elements[e][(k + 1) % 3]] - mesh.vertices[mesh.elements[e][k]];
+      size[e] = std::min(size[e], kAlongLine * 2.0 * mesh.area_m2(e) / length(edge));
+    }
+  }
+  return size;
+}
+
 /// What sizes for a share come to.
 struct Outlook {
-  double square = 0.0;  ///< error, lux^2 m^2
-  double elements = 0.0;
+  double square = 0.0;    ///< error in the end, lux^2 m^2
+  double elements = 0.0;  ///< after this step
 };
 
-Outlook outlook(const std::vector<InterpolationError>& error, std::span<const double> side_area,
-                std::span<const double> area, double share, const SizeRange& range) {
+Outlook outlook(const LightOnMesh& light, const std::vector<InterpolationError>& error,
+                std::span<const double> most_m, double share, const SizeRange& range) {
   constexpr double kPerArea = 2.309;  // equilateral triangles: 4 / sqrt(3)
   Outlook sum;
-  for (std::size_t i = 0; i < error.size(); ++i) {
-    if (!(side_area[i] > 0.0) || !(error[i].size_m > 0.0)) continue;
-    const double size = size_for(error[i], share, range), ratio = size / error[i].size_m;
-    // A jump is a strip as wide as the elements.
-    const double order = 2.0 * error[i].order + 1.0 - error[i].order / 2.0;
-    sum.square += side_area[i] * error[i].lux * error[i].lux * std::pow(ratio, order);
-    sum.elements += kPerArea * area[i] / (size * size);
+  std::vector<double> element_size(most_m.begin(), most_m.end());
+  for_lit(light, [&](std::size_t s, double area) {
+    const double size = std::min(size_for(error[s], share, range), most_m[s / 2]);
+    element_size[s / 2] = std::min(element_size[s / 2], next_size(error[s], size, range));
+    sum.square += area * std::pow(error[s].lux * std::pow(size / error[s].size_m, kOrder), 2);
+  });
+  for (std::size_t e = 0; e < element_size.size(); ++e) {
+    sum.elements += kPerArea * light.mesh.area_m2(e) / (element_size[e] * element_size[e]);
   }
   return sum;
 }
 
 }  // namespace
 
-std::vector<InterpolationError> interpolation_error(const LightOnMesh& light) {
-  const PointNeighbours neighbours(light);
-  std::vector<InterpolationError> error(light.points.size());
+std::vector<InterpolationError> interpolation_error(const LightOnMesh& light,
+                                                    std::span<const std::uint8_t> is_bent) {
+  const Bends bends(light, is_bent);
+  std::vector<InterpolationError> error(light.mesh.sides());
   parallel_for(error.size(), kGrain, [&](IndexRange range) {
-    PointFit fit(light, neighbours);
-    for (std::size_t i = range.begin; i < range.end; ++i) {
-      if (light.is_lit[i] != 0) error[i] = fit.at(static_cast<std::uint32_t>(i));
+    for (std::size_t s = range.begin; s < range.end; ++s) {
+      if (light.is_lit[light.points.corner[s][0]] != 0) error[s] = error_of(light, bends, s);
     }
   });
   return error;
@@ -175,34 +180,23 @@ std::vector<InterpolationError> interpolation_error(const LightOnMesh& light) {
 
 double interpolation_rms(const LightOnMesh& light, const std::vector<InterpolationError>& error) {
   double square = 0.0, area = 0.0;
-  for_corners(light, [&](std::uint32_t i, double third) {
-    square += third * error[i].lux * error[i].lux;
-    area += third;
+  for_lit(light, [&](std::size_t s, double here) {
+    square += here * error[s].lux * error[s].lux;
+    area += here;
   });
   return area > 0.0 ? std::sqrt(square / area) : 0.0;
 }
 
 std::vector<double> sizes_by_error(const LightOnMesh& light,
                                    const std::vector<InterpolationError>& error,
-                                   const ErrorSizes& asked) {
-  std::vector<double> lit_area(error.size()), element_area(error.size());
-  double area = 0.0;
-  for_corners(light, [&](std::uint32_t i, double third) {
-    lit_area[i] += third;
-    area += third;
-  });
-  // Where both faces are lit each vertex counts once, by its front.
-  const std::vector<std::uint32_t> vertex = vertices_of(light);
-  std::vector<std::uint8_t> is_counted(light.mesh.vertices.size());
-  for (std::size_t i = 0; i < error.size(); ++i) {
-    if (!(lit_area[i] > 0.0) || is_counted[vertex[i]] != 0) continue;
-    is_counted[vertex[i]] = 1;
-    element_area[i] = lit_area[i];
-  }
-  const double allowed = asked.allowed_lux * asked.allowed_lux * area;
+                                   const ErrorSizes& asked, std::span<const std::uint8_t> is_bent) {
+  std::vector<double> size = most_sizes(light.mesh, is_bent, asked.range.most_m);
+  double lit = 0.0;
+  for_lit(light, [&](std::size_t, double area) { lit += area; });
+  const double allowed = asked.allowed_lux * asked.allowed_lux * lit;
   const auto most = static_cast<double>(asked.elements_max);
   const auto is_too_fine = [&](double share) {
-    const Outlook is = outlook(error, lit_area, element_area, share, asked.range);
+    const Outlook is = outlook(light, error, size, share, asked.range);
     return (asked.elements_max > 0 && is.elements > most) || is.square < allowed;
   };
   double low = -120.0, high = 120.0;  // powers of two of the share
@@ -210,11 +204,10 @@ std::vector<double> sizes_by_error(const LightOnMesh& light,
     const double middle = 0.5 * (low + high);
     (is_too_fine(std::exp2(middle)) ? low : high) = middle;
   }
-  std::vector<double> size(light.mesh.vertices.size(), asked.range.most_m);
-  for (std::size_t i = 0; i < error.size(); ++i) {
-    if (!(lit_area[i] > 0.0)) continue;
-    size[vertex[i]] = std::min(size[vertex[i]], size_for(error[i], std::exp2(high), asked.range));
-  }
+  for_lit(light, [&](std::size_t s, double) {
+    const double wished = size_for(error[s], std::exp2(high), asked.range);
+    size[s / 2] = std::min(size[s / 2], next_size(error[s], wished, asked.range));
+  });
   return size;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "radiosity/light_on_mesh.h"
@@ -9,23 +11,25 @@
 
 namespace tenku {
 
-/// What linear interpolation between corners misses about a point.
+/// What linear interpolation between corners misses on a side.
 struct InterpolationError {
-  double lux = 0.0;     ///< root mean square over elements there, at their present size
-  double order = 2.0;   ///< falls as the size to this power: 2 where light is smooth, 0 at a jump
-  double size_m = 0.0;  ///< present size: mean length of the edges
+  double lux = 0.0;     ///< root mean square over the side
+  double size_m = 0.0;  ///< of the element: mean length of its edges
 };
 
-/// From a parabola fitted to the light about each point, two edges far: a tenth of size^2 times the
-/// root mean square of its second derivatives, which is what it leaves out in triangles of that
-/// size; and half of how far the values are from the parabola beyond their noise, for a jump
-/// lies within one element but shows in the fits about two on either side. The former falls with
-/// the square of the size, the latter does not fall at a jump: the order goes from 2 to 0 as it
-/// outweighs the former.
+/// From two signs of it, each local to a side and its neighbours. A parabola in an equilateral
+/// triangle has seven tenths of its error by either:
+/// - 0.12 of the size times how much the slope of the light that is drawn changes at the edges of
+///   the side. Edges along lines at which light is known to bend do not count: elements there are
+///   no better for being smaller.
+/// - 0.7 of how far the light straight from sun, sky and lamps is off in the middle of the side.
+///   It finds shadows that no corner lies in, and tells in which element an edge of one lies.
+/// What noise explains is taken off.
 ///
-/// Shape    [point]; nothing where no light comes.
-/// Cost     2 us a point
-std::vector<InterpolationError> interpolation_error(const LightOnMesh& light);
+/// @param is_bent  [element], bit k: its edge from corner k on lies on such a line; or none at all
+/// Shape    [element side]; nothing where no light comes.
+std::vector<InterpolationError> interpolation_error(const LightOnMesh& light,
+                                                    std::span<const std::uint8_t> is_bent = {});
 
 /// Root mean square over all lit sides, lux.
 double interpolation_rms(const LightOnMesh& light, const std::vector<InterpolationError>& error);
@@ -38,12 +42,15 @@ struct ErrorSizes {
 };
 
 /// Sizes with which every element has an equal share of the squared error: of all meshes of so many
-/// elements that with the least error. With s the present size, e the error and p its order, an
-/// element of size h has the share (e (h / s)^p h)^2. The order is taken as 1 at least: what looks
-/// like a jump is a penumbra more often, and elements by the dozen about it would be lost.
-/// @return  [vertex], metres; of the two faces the smaller
+/// elements that with the least error. With s the present size and e the error an element of size h
+/// has the share (e (h / s)^2 h)^2, as where light is smooth. At a jump it falls less: there the
+/// next round asks for smaller ones again.
+/// Beside lines that edges follow elements stay small enough to follow them again.
+/// @param is_bent  as above
+/// @return  [element], metres; of the two faces the smaller
 std::vector<double> sizes_by_error(const LightOnMesh& light,
                                    const std::vector<InterpolationError>& error,
-                                   const ErrorSizes& asked);
+                                   const ErrorSizes& asked,
+                                   std::span<const std::uint8_t> is_bent = {});
 
 }  // namespace tenku

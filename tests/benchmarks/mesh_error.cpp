@@ -63,6 +63,16 @@ struct Lit {
   MeshedScene mesh(std::size_t elements) const {
     return mesh_scene(scene, soup, {.elements_max = elements});
   }
+  std::vector<ShadowEdges> edges() const {
+    return shadow_edges(mesh(1).polygons, scene.materials, engines->rays(), {});
+  }
+  /// Of equilateral triangles, so many on all polygons.
+  double size_for(std::size_t elements) const {
+    double area = 0.0;
+    const MeshedScene coarse = mesh(1);
+    for (std::uint32_t e = 0; e < coarse.mesh.size(); ++e) area += coarse.mesh.area_m2(e);
+    return std::sqrt(area / static_cast<double>(elements) * 4.0 / std::sqrt(3.0));
+  }
   /// What is compared: that which faces the middle of the scene.
   bool counts(Vec3 at, Vec3 normal) const { return dot(middle - at, normal) > 0.0; }
 };
@@ -191,27 +201,26 @@ class Places {
 struct Reference {
   std::vector<Vec3> at;
   std::vector<std::uint32_t> polygon, face;
+  std::vector<std::size_t> side;
   std::vector<double> area;
   std::array<std::vector<double>, 2> lux;
   double mean = 0.0, noise_lux = 0.0, missed_pct = 0.0;
   std::size_t elements = 0;
 
   Reference(const Lit& lit, std::size_t count, double tolerance_pct) {
+    const std::vector<ShadowEdges> edges = lit.edges();
     for (unsigned look = 0; look < 2; ++look) {
-      const auto loop = Solver{lit, tolerance_pct, 1 + 1000 * look}.run(lit.mesh(count), {});
+      MeshLoopOptions options;
+      options.mesher = Mesher::Bubble;
+      options.sizes = {lit.size_for(count), lit.size_for(count)};
+      options.edges = edges;
+      const auto loop =
+          Solver{lit, tolerance_pct, 1 + 1000 * look}.run(lit.mesh(count / 20), options);
       const LightOnMesh light = light_on_mesh(loop->mesh(), loop->interior(), loop->light());
       elements = loop->mesh().size();
       missed_pct = loop->rounds().back().missed_pct;
-      for (std::size_t s = 0; s < loop->mesh().sides(); ++s) {
-        const Vec3 centre = loop->mesh().centre(s / 2);
-        if (!lit.counts(centre, loop->mesh().normal(s))) continue;
-        lux[look].push_back(side_lux(light, s));
-        if (look > 0) continue;
-        at.push_back(centre);
-        polygon.push_back(loop->polygon_of()[s / 2]);
-        face.push_back(s % 2);
-        area.push_back(loop->mesh().area_m2(s / 2));
-      }
+      if (look == 0) take(lit, *loop, light);
+      for (const std::size_t s : side) lux[look].push_back(side_lux(light, s));
     }
     const double all = std::accumulate(area.begin(), area.end(), 0.0);
     for (std::size_t i = 0; i < at.size(); ++i) {
@@ -219,6 +228,19 @@ struct Reference {
       noise_lux += area[i] / all * std::pow(0.5 * (lux[0][i] - lux[1][i]), 2);
     }
     noise_lux = std::sqrt(noise_lux);
+  }
+
+  /// What counts, but for what stands under something: no light comes there.
+  void take(const Lit& lit, const MeshLoop& loop, const LightOnMesh& light) {
+    for (std::size_t s = 0; s < loop.mesh().sides(); ++s) {
+      const Vec3 centre = loop.mesh().centre(s / 2);
+      if (!lit.counts(centre, loop.mesh().normal(s)) || !(side_lux(light, s) > 0.0)) continue;
+      side.push_back(s);
+      at.push_back(centre);
+      polygon.push_back(loop.polygon_of()[s / 2]);
+      face.push_back(s % 2);
+      area.push_back(loop.mesh().area_m2(s / 2));
+    }
   }
 
   /// Area-weighted root mean square of what the values drawn on a mesh are wrong by.

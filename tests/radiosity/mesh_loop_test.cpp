@@ -107,6 +107,41 @@ double lux_at(const MeshLoop& loop, Vec3 p) {
   return -1.0;
 }
 
+TEST(MeshLoop, KeepsFormFactorsOfWhatSeesNoOtherMesh) {
+  // Beside the shadow a room of its own, closed, dim and evenly lit: its mesh stays.
+  ShadowScene scene = plate_over_floor();
+  for (const double z : {0.0, 2.0}) scene.surface.level(10, 10, 12, 12, z);
+  for (const double at : {10.0, 12.0}) {
+    scene.surface.fan({{at, 10, 0}, {at, 12, 0}, {at, 12, 2}, {at, 10, 2}});
+    scene.surface.fan({{10, at, 0}, {12, at, 0}, {12, at, 2}, {10, at, 2}});
+  }
+  scene.surface.materials[2].emission_lm_m2 = Rgb::grey(0.1);
+  scene.surface.material = 2;
+  scene.surface.level(10.9, 10.9, 11.1, 11.1, 1.9);
+  MeshLoopOptions how;
+  how.mesher = Mesher::Bubble;
+  how.rounds = 1;
+  how.tolerance_pct = 1.0;
+  how.sizes.most_m = 0.25;
+  MeshLoop loop = scene.loop(0.25, how);
+  Progress quiet;
+  loop.run({}, quiet);
+  ASSERT_EQ(loop.rounds().size(), 2U);
+  EXPECT_GT(loop.rounds()[1].polygons_meshed, 0U);
+  InteriorOptions same;
+  same.tolerance_pct = 5.0;
+  Interior anew(loop.mesh(), scene.surface.materials, same);
+  const InteriorLight light = anew.light({}, quiet);
+  for (std::size_t i = 0; i < anew.points().size(); ++i) {
+    // What is kept looks as finely as it did before, what is found anew no finer than it must.
+    EXPECT_NEAR(loop.light().points.total_lux(i), light.points.total_lux(i),
+                light.points.error_lux[i] + loop.light().points.error_lux[i] + 1e-9);
+  }
+  // The lamp in the room is divided anew: points whose rays meet it look again.
+  EXPECT_GT(loop.rounds()[1].points_kept, 600U);
+  EXPECT_LT(loop.rounds()[1].points_kept, anew.points().size() / 3);
+}
+
 TEST(MeshLoop, KeepsTheShadowOfABarInFewerElements) {
   // A bar 2 cm wide, askew, 20 cm above the floor of a room of 6 m; its umbra is 1.7 cm wide.
   ShadowScene scene;
