@@ -85,6 +85,10 @@ nlohmann::ordered_json json_of_rounds(const MeshLoop& loop) {
                       {"polygons_meshed", round.polygons_meshed},
                       {"points_kept", round.points_kept},
                       {"missed_pct", round.missed_pct}});
+    if (round.quality.edges == 0) continue;
+    rounds.back()["mean_smallest_angle_deg"] = round.quality.mean_smallest_angle_deg;
+    rounds.back()["least_angle_deg"] = round.quality.least_angle_deg;
+    rounds.back()["edges_within_20_pct"] = round.quality.share_within_20_pct;
   }
   return rounds;
 }

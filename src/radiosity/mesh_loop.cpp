@@ -1,5 +1,7 @@
 #include "radiosity/mesh_loop.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -19,8 +21,10 @@ namespace {
 constexpr std::size_t kMostElements = 1'000'000;
 constexpr double kOtherSize = 1.4;   // times larger or smaller: another size
 constexpr double kOtherShare = 0.1;  // of the elements asked for on a polygon
-constexpr double kLeastGain = 0.9;   // of the error before: a round that gains less is the last
-constexpr double kLargest = 0.25;    // of the scene's longest side: largest element unasked
+constexpr double kLeastGain =
+    0.9;  // of error and elements before: a round that gains less is the last
+constexpr double kMostOnTop = 0.5;  // of what was asked for: as far as one round goes on
+constexpr double kLargest = 0.25;   // of the scene's longest side: largest element unasked
 constexpr double kSmallest = 1.0 / 4096.0;
 constexpr int kAttempts = 8;                            // at a number of elements
 constexpr double kNearlyAll = 0.96, kManyOfAll = 0.93;  // of the elements allowed
@@ -53,6 +57,35 @@ std::vector<Finding> findings_of(const std::vector<BubbleFlaw>& flaws) {
   return findings;
 }
 
+/// Means by elements and edges, the least angle of all.
+MeshQuality quality_of(const BubbleMesh& made, std::span<const std::uint8_t> is_wanted) {
+  MeshQuality all;
+  double elements = 0.0;
+  for (std::size_t p = 0; p < is_wanted.size(); ++p) {
+    const auto here = static_cast<double>(made.meshes[p].elements.size());
+    if (is_wanted[p] == 0 || here == 0.0) continue;
+    const MeshQuality& q = made.quality[p];
+    all.least_angle_deg =
+        elements > 0.0 ? std::min(all.least_angle_deg, q.least_angle_deg) : q.least_angle_deg;
+    all.mean_smallest_angle_deg += here * q.mean_smallest_angle_deg;
+    all.share_within_20_pct += static_cast<double>(q.edges) * q.share_within_20_pct;
+    all.edges += q.edges;
+    all.steps = std::max(all.steps, q.steps);
+    elements += here;
+  }
+  if (elements > 0.0) all.mean_smallest_angle_deg /= elements;
+  if (all.edges > 0) all.share_within_20_pct /= static_cast<double>(all.edges);
+  return all;
+}
+
+std::string told(const MeshQuality& quality) {
+  return fmt::format(
+      "smallest angles {:.1f} degrees on average, {:.1f} the least; {:.1f} % of edges within 20 % "
+      "of the size; {} steps",
+      quality.mean_smallest_angle_deg, quality.least_angle_deg, quality.share_within_20_pct,
+      quality.steps);
+}
+
 }  // namespace
 
 Mesher mesher_named(std::string_view name) {
@@ -68,6 +101,7 @@ MeshLoop::MeshLoop(MeshedScene first, const std::vector<Material>& materials,
     : materials_(materials),
       how_(std::move(interior)),
       options_(std::move(options)),
+      asked_pct_(options_.tolerance_pct),
       polygons_(std::move(first.polygons)),
       polygon_of_(std::move(first.polygon_of)),
       patch_m_(first.sizes.patch_m),
@@ -95,7 +129,7 @@ void MeshLoop::run(const LightRequest& request, Progress& progress) {
   for (int round = 0; round < rounds; ++round) {
     progress.stop_if_cancelled();
     if (!is_once && is_enough()) return;
-    if (!remesh()) return;
+    if (!remesh(progress)) return;
     solve(request, progress);
   }
 }
@@ -122,12 +156,15 @@ void MeshLoop::solve(const LightRequest& request, Progress& progress) {
 bool MeshLoop::is_enough() const {
   const MeshRound& last = rounds_.back();
   if (last.missed_pct <= options_.tolerance_pct) return true;
-  return rounds_.size() > 2 &&
-         last.missed_pct > kLeastGain * rounds_[rounds_.size() - 2].missed_pct;
+  if (rounds_.size() < 3) return false;
+  const MeshRound& before = rounds_[rounds_.size() - 2];
+  const double gain = last.missed_pct / before.missed_pct,
+               fewer = static_cast<double>(last.elements) / static_cast<double>(before.elements);
+  return gain > kLeastGain && gain * fewer > kLeastGain;
 }
 
-bool MeshLoop::remesh() {
-  return options_.mesher == Mesher::Refine ? remesh_by_threshold() : remesh_by_bubbles();
+bool MeshLoop::remesh(Progress& progress) {
+  return options_.mesher == Mesher::Refine ? remesh_by_threshold() : remesh_by_bubbles(progress);
 }
 
 std::vector<std::uint32_t> MeshLoop::sides_in(std::span<const MeshPiece> pieces) const {
@@ -279,7 +316,7 @@ BubbleMesh MeshLoop::bubbles_up_to(std::span<const std::uint8_t> is_wanted) {
   return best;
 }
 
-bool MeshLoop::remesh_by_bubbles() {
+bool MeshLoop::remesh_by_bubbles(Progress& progress) {
   const Stopwatch watch;
   SizeRange range = options_.sizes;
   std::vector<Samples> samples;
@@ -288,7 +325,10 @@ bool MeshLoop::remesh_by_bubbles() {
   } else {
     if (!(range.most_m > 0.0)) range.most_m = std::max(range.least_m, kLargest * longest_m_);
     if (!(range.least_m > 0.0)) range.least_m = std::min(range.most_m, kSmallest * longest_m_);
-    const double allowed = options_.tolerance_pct / 100.0 * mean_lux(*on_mesh_);
+    // Jumps keep more than foreseen: what the last round fell short by is asked for on top.
+    const double short_by = options_.tolerance_pct / rounds_.back().missed_pct;
+    if (rounds_.size() > 1) asked_pct_ *= std::clamp(short_by, kMostOnTop, 1.0);
+    const double allowed = asked_pct_ / 100.0 * mean_lux(*on_mesh_);
     samples = samples_in_elements(
         sizes_by_error(*on_mesh_, missed_lux_, {allowed, options_.elements_max, range}, is_bent_));
   }
@@ -298,7 +338,10 @@ bool MeshLoop::remesh_by_bubbles() {
   size_field_s_ += watch.seconds();
   if (wanted == 0) return false;
   const Stopwatch meshing;
+  progress.begin("mesh of bubbles", 0);
   BubbleMesh made = bubbles_up_to(is_wanted);
+  const MeshQuality quality = quality_of(made, is_wanted);
+  progress.end(told(quality));
   findings_ = findings_of(made.flaws);
   auto pieces = pieces_of(*mesh_, polygon_of_, polygons_.size());
   for (std::size_t p = 0; p < pieces.size(); ++p) {
@@ -311,6 +354,7 @@ bool MeshLoop::remesh_by_bubbles() {
   }
   before_ = times();
   rounds_.emplace_back().polygons_meshed = static_cast<std::size_t>(wanted);
+  rounds_.back().quality = quality;
   take(std::move(pieces));
   remesh_s_ += meshing.seconds();
   return true;

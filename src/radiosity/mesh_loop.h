@@ -53,6 +53,7 @@ struct MeshRound {
   std::size_t polygons_meshed = 0;  ///< anew
   std::size_t points_kept = 0;      ///< whose form factors are those of the mesh before
   double missed_pct = 0.0;          ///< root mean square, as in the options, as estimated
+  MeshQuality quality{};            ///< of the polygons meshed by bubbles, if any
 };
 
 /// The calculation with the mesh that it has come to.
@@ -93,9 +94,9 @@ class MeshLoop {
  private:
   void solve(const LightRequest& request, Progress& progress);
   bool is_enough() const;
-  bool remesh();
+  bool remesh(Progress& progress);
   bool remesh_by_threshold();
-  bool remesh_by_bubbles();
+  bool remesh_by_bubbles(Progress& progress);
   using Samples = std::vector<SizeSample>;  ///< of one polygon
   std::vector<Samples> samples_at_vertices(std::span<const double> size_m) const;
   std::vector<Samples> samples_in_elements(std::span<const double> size_m) const;
@@ -115,6 +116,7 @@ class MeshLoop {
   const std::vector<Material>& materials_;
   InteriorOptions how_;
   MeshLoopOptions options_;
+  double asked_pct_;  ///< of the mean illuminance: with which the tolerance should hold
   std::vector<FlatPolygon> polygons_;
   std::vector<std::uint32_t> polygon_of_;
   double patch_m_, longest_m_ = 0.0;

@@ -181,6 +181,8 @@ TEST(RadiosityCommand, MakesTheMeshAnewToSuitTheLight) {
   const json summary = json::parse(run.out);
   ASSERT_EQ(summary["rounds"].size(), 2U);
   EXPECT_LE(summary["elements"].get<int>(), 900);
+  EXPECT_GT(summary["rounds"][1]["mean_smallest_angle_deg"].get<double>(), 40.0);
+  EXPECT_GT(summary["rounds"][1]["edges_within_20_pct"].get<double>(), 45.0);
   EXPECT_GT(summary["seconds"]["size_field_s"].get<double>(), 0.0);
   EXPECT_GT(summary["seconds"]["remesh_s"].get<double>(), 0.0);
   const FieldMesh field = read_vtp(folder / "f.vtp");
