@@ -40,7 +40,7 @@ struct MeshLoopOptions {
   SizeRange sizes{0.0, 0.0};
   std::size_t elements_max = 0;  ///< 0: as many as the tolerance takes, below a million
   double threshold_pct = 0.0;    ///< for `Refine`, of the mean illuminance; 0: the tolerance
-  double grading = 0.5;          ///< of the sizes of bubbles, metres per metre
+  double grading = 0.35;         ///< of the sizes of bubbles, metres per metre
   int rounds = 3;                ///< meshes after the first, at most
   /// [polygon] lines that edges of bubble meshes follow, and which part them where things touch; or
   /// none at all.
